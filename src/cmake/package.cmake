@@ -1,0 +1,28 @@
+# The installed CMake package: find_package(goniofit), link goniofit::goniofit, include <goniofit/fit/fit.h>.
+
+include(CMakePackageConfigHelpers)
+set(GONIOFIT_PACKAGE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/goniofit)
+
+# The public interface. A header that is not here may change without notice, and none here may include one that is not.
+set(GONIOFIT_PUBLIC_HEADERS
+  support/error.h support/output_file.h
+  geometry/angles.h geometry/pair.h geometry/samplings.h
+  brdf/material.h brdf/evaluator.h
+  scan/scan.h
+  fit/settings.h fit/fit.h
+  io/scan_reader.h io/material_io.h io/recipe_io.h io/optical_constants.h io/exr_table.h
+  synthetic/simulate.h synthetic/verify.h
+  report/fit_report.h report/plot.h)
+foreach(header IN LISTS GONIOFIT_PUBLIC_HEADERS)
+  get_filename_component(room ${header} DIRECTORY)
+  install(FILES ${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/goniofit/${room})
+endforeach()
+
+configure_package_config_file(cmake/goniofitConfig.cmake.in ${PROJECT_BINARY_DIR}/goniofitConfig.cmake
+  INSTALL_DESTINATION ${GONIOFIT_PACKAGE_DIR})
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/goniofitConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+
+install(TARGETS goniofit_all EXPORT goniofitTargets)
+install(EXPORT goniofitTargets NAMESPACE goniofit:: DESTINATION ${GONIOFIT_PACKAGE_DIR})
+install(FILES ${PROJECT_BINARY_DIR}/goniofitConfig.cmake ${PROJECT_BINARY_DIR}/goniofitConfigVersion.cmake
+  DESTINATION ${GONIOFIT_PACKAGE_DIR})

@@ -1,0 +1,7 @@
+#include "brdf/shape_kernels.h"
+
+namespace goniofit {
+
+const double exponent_floor = -700.0;
+
+}  // namespace goniofit

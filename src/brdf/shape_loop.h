@@ -1,0 +1,46 @@
+#pragma once
+// The loop behind shape_columns. Private to the files that instantiate it, which are compiled for vectorisation.
+
+#if defined(__GNUC__) && !defined(__clang__)
+// Tells the compiler that the C library has vector versions of these (libmvec, glibc 2.35).
+extern "C" {
+__attribute__((simd("notinbranch"))) double exp(double) noexcept;
+__attribute__((simd("notinbranch"))) double expm1(double) noexcept;
+__attribute__((simd("notinbranch"))) double log(double) noexcept;
+__attribute__((simd("notinbranch"))) double log1p(double) noexcept;
+}
+// One clone an instruction set, chosen when the program starts. AVX2 alone would leave FMA out, hence the levels.
+#define GONIOFIT_VECTOR_CLONES __attribute__((target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4"), flatten, noinline))
+#else
+#define GONIOFIT_VECTOR_CLONES
+#endif
+
+#include "shape_kernels.h"
+
+namespace goniofit::shape_loop {
+
+/// Where a loop puts its results: a plain array for double, value and derivative arrays for a dual number.
+struct DoubleSink {
+  double* values;
+  [[gnu::always_inline]] void put(std::size_t i, double x) const { values[i] = x; }
+};
+
+enum class Want { dd, fs, both };
+
+template <ShadowingTier shadowing, EffectiveRoughnessTier roughness, FsForm form, Want want, class T, class Sink>
+[[gnu::always_inline]] inline void run(const PairBatch& pairs, const T& log_slope, double floor_bound, const Sink& dd,
+                                       const Sink& fs) {
+  using namespace math;
+  const math::FloorAt floor{floor_bound};
+  const T q = exp(-log_slope);
+  const std::size_t n = pairs.size();
+#pragma GCC ivdep
+  for (std::size_t i = 0; i < n; ++i) {
+    const Pair p = pairs[i];
+    const SurfaceTerms<T> t = surface_terms<shadowing, roughness>(log_slope, q, p, floor);
+    if constexpr (want != Want::fs) dd.put(i, dd_shape(t, p, floor));
+    if constexpr (want != Want::dd) fs.put(i, fs_shape<form>(t, p, floor));
+  }
+}
+
+}  // namespace goniofit::shape_loop

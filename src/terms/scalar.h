@@ -1,0 +1,53 @@
+#pragma once
+// The little that the formulas need of their scalar beyond arithmetic, so that each stands once for double, for dual
+// numbers, for SIMD batches and for 50-digit floats. Formulas call exp, log ... unqualified after `using namespace math`.
+
+#include <cmath>
+
+namespace goniofit::math {
+
+using std::exp;
+using std::expm1;
+using std::log;
+using std::log1p;
+using std::sqrt;
+
+/// Both sides are evaluated: a vectorised loop cannot branch. Where a side is singular, keep its argument harmless.
+template <class T>
+[[gnu::always_inline]] inline T select(bool condition, const T& yes, const T& no) {
+  return condition ? yes : no;
+}
+
+/// x⁵ by three products.
+template <class T>
+[[gnu::always_inline]] inline T pow5(const T& x) {
+  const T x2 = x * x;
+  return x2 * x2 * x;
+}
+
+/// A lower bound for arguments of exp, or none. The batch kernels bound them at a run-time value of -700 (e^-700 = 1e-304):
+/// vector exponentials fall back to scalar code below -708, and in 1 - e^x the difference is nil. A bound known at compile
+/// time would not do: the compiler then selects after the call.
+struct NoFloor {};
+struct FloorAt {
+  double bound;
+};
+template <class T>
+[[gnu::always_inline]] inline T floored(const T& x, NoFloor) {
+  return x;
+}
+template <class T>
+[[gnu::always_inline]] inline T floored(const T& x, FloorAt floor) {
+  return select(x < floor.bound, T(floor.bound), x);
+}
+
+/// ln(1 - e^x) for x < 0. One form cancels near 0, the other far from it; they meet at -ln 2.
+template <class T>
+[[gnu::always_inline]] inline T log_one_minus_exp(const T& x) {
+  constexpr double ln2 = 0.6931471805599453;
+  const T far = log1p(-exp(x));
+  const T near = log(-expm1(x));
+  return select(x < -ln2, far, near);
+}
+
+}  // namespace goniofit::math

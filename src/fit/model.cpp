@@ -1,0 +1,165 @@
+#include "fit/model.h"
+
+#include <ceres/jet.h>
+
+#include "fit/dot.h"
+
+namespace goniofit {
+
+namespace {
+
+using Dual = ceres::Jet<double, 1>;
+
+std::vector<double*> column_pointers(Eigen::MatrixXd& m) {
+  std::vector<double*> pointers;
+  for (Eigen::Index j = 0; j < m.cols(); ++j) pointers.push_back(m.col(j).data());
+  return pointers;
+}
+
+}  // namespace
+
+Model::Model(const Problem& problem)
+    : problem_(problem), parameters_(static_cast<Eigen::Index>(problem.basis->shape_parameters().size())) {
+  const bool fixed = problem.free_optics == FreeOptics::none;
+  for (std::size_t c = 0; c < problem.channels.size(); ++c) {
+    // With one shape parameter no factor reads the wavelength, and all channels share one set.
+    const std::size_t factors = factors_for(parameters_ > 1 ? problem.wavelength(c) : 1.0);
+    std::size_t group = groups_.size();
+    for (std::size_t other = 0; fixed && other < c; ++other) {
+      const bool shared = problem.channels[other].optics_group == problem.channels[c].optics_group;
+      if (shared && groups_[group_[other]].factors == factors) group = group_[other];
+    }
+    group_.push_back(group);
+    if (group < groups_.size()) continue;
+    Group& created = groups_.emplace_back();
+    created.factors = factors;
+    if (fixed) fill_optics(c, created);
+  }
+}
+
+std::size_t Model::factors_for(double wavelength_um) {
+  for (std::size_t f = 0; f < factors_.size(); ++f) {
+    if (factors_[f].wavelength_um == wavelength_um) return f;
+  }
+  const auto n = static_cast<Eigen::Index>(problem_.samples());
+  const auto columns = static_cast<Eigen::Index>(problem_.basis->columns().size());
+  factors_.push_back({wavelength_um, Eigen::MatrixXd(n, columns), Eigen::MatrixXd::Zero(n, columns * parameters_)});
+  return factors_.size() - 1;
+}
+
+void Model::fill_optics(std::size_t channel, Group& group) const {
+  const std::vector<BasisColumn>& columns = problem_.basis->columns();
+  const auto n = static_cast<Eigen::Index>(problem_.samples());
+  const bool fixed = problem_.free_optics == FreeOptics::none;
+  group.optics.resize(n, static_cast<Eigen::Index>(columns.size()));
+  if (!fixed) group.optics_derivatives.resize(n, static_cast<Eigen::Index>(columns.size()));
+  const BasicOptics<Dual> dual = problem_.optics_at(channel, Dual(group.optics_value, 0));
+  for (std::size_t j = 0; j < columns.size(); ++j) {
+    const auto column = static_cast<Eigen::Index>(j);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const Pair p = problem_.pairs[static_cast<std::size_t>(i)];
+      if (fixed) {
+        group.optics(i, column) =
+            problem_.weight[i] * optics_factor(columns[j].optics, problem_.terms.fresnel, problem_.channels[channel].optics, p);
+      } else {
+        const Dual factor = optics_factor(columns[j].optics, problem_.terms.fresnel, dual, p);
+        group.optics(i, column) = problem_.weight[i] * factor.a;
+        group.optics_derivatives(i, column) = problem_.weight[i] * factor.v[0];
+      }
+    }
+  }
+}
+
+void Model::multiply_out(Group& group, bool derivatives) const {
+  const Factors& f = factors_[group.factors];
+  const auto n = static_cast<std::size_t>(f.values.rows());
+  group.products.resize(f.values.rows(), f.values.cols());
+  if (derivatives) group.shape_products.resize(f.derivatives.rows(), f.derivatives.cols());
+  for (Eigen::Index j = 0; j < f.values.cols(); ++j) {
+    const double* const optics = group.optics.col(j).data();
+    multiply(optics, f.values.col(j).data(), group.products.col(j).data(), n);
+    if (!derivatives || !problem_.basis->columns()[static_cast<std::size_t>(j)].reads_shape) continue;
+    for (Eigen::Index parameter = j * parameters_; parameter < (j + 1) * parameters_; ++parameter) {
+      multiply(optics, f.derivatives.col(parameter).data(), group.shape_products.col(parameter).data(), n);
+    }
+  }
+}
+
+void Model::set_shape(const double* z, bool derivatives) {
+  const Eigen::Vector2d log_shape = problem_.shape.log_shape(z);
+  const std::span<const double> shape(log_shape.data(), static_cast<std::size_t>(parameters_));
+  for (Factors& f : factors_) {
+    if (derivatives) {
+      problem_.basis->shape_factors(problem_.pairs, shape, f.wavelength_um, column_pointers(f.values), column_pointers(f.derivatives));
+    } else {
+      problem_.basis->shape_factors(problem_.pairs, shape, f.wavelength_um, column_pointers(f.values));
+    }
+  }
+  have_derivatives_ = derivatives;
+  if (problem_.free_optics != FreeOptics::none) return;  // set_optics multiplies out
+  for (Group& group : groups_) multiply_out(group, derivatives);
+}
+
+void Model::set_optics(std::size_t channel, double value) {
+  if (problem_.free_optics == FreeOptics::none) return;
+  Group& group = groups_[group_[channel]];
+  if (group.optics.size() == 0 || group.optics_value != value) {
+    group.optics_value = value;
+    fill_optics(channel, group);
+  }
+  multiply_out(group, have_derivatives_);
+}
+
+void Model::residuals(std::size_t channel, const SmallVector& k, Eigen::VectorXd& out) const {
+  const Eigen::MatrixXd& products = by_coefficient(channel);
+  out = -problem_.channels[channel].target;
+  for (Eigen::Index j = 0; j < k.size(); ++j) {
+    if (k[j] != 0.0) add_scaled(k[j], products.col(j).data(), out.data(), problem_.samples());
+  }
+}
+
+void Model::by_shape(std::size_t channel, const SmallVector& k, int i, Eigen::Ref<Eigen::VectorXd> out) const {
+  const Group& group = groups_[group_[channel]];
+  out.setZero();
+  for (Eigen::Index j = 0; j < k.size(); ++j) {
+    if (k[j] == 0.0 || !problem_.basis->columns()[static_cast<std::size_t>(j)].reads_shape) continue;
+    for (Eigen::Index parameter = 0; parameter < parameters_; ++parameter) {
+      const double chain = k[j] * problem_.shape.map(parameter, i);
+      if (chain != 0.0) {
+        add_scaled(chain, group.shape_products.col(j * parameters_ + parameter).data(), out.data(), problem_.samples());
+      }
+    }
+  }
+}
+
+void Model::by_optics(std::size_t channel, const SmallVector& k, Eigen::Ref<Eigen::VectorXd> out) const {
+  const Group& group = groups_[group_[channel]];
+  const Eigen::MatrixXd& shape = factors_[group.factors].values;
+  out.setZero();
+  for (Eigen::Index j = 0; j < k.size(); ++j) {
+    out.noalias() += k[j] * group.optics_derivatives.col(j).cwiseProduct(shape.col(j));
+  }
+}
+
+Linearisation linearise(const Problem& problem, const FitPoint& point) {
+  Model model(problem);
+  model.set_shape(point.z.data(), true);
+  Linearisation l;
+  const auto n = static_cast<Eigen::Index>(problem.samples());
+  for (std::size_t c = 0; c < problem.channels.size(); ++c) {
+    const SmallVector& k = point.coefficients[c];
+    if (!point.optics.empty()) model.set_optics(c, point.optics[c]);
+    model.residuals(c, k, l.residuals.emplace_back());
+    l.loss += l.residuals.back().squaredNorm();
+    Eigen::MatrixXd& shape = l.by_shape.emplace_back(n, problem.shape.free);
+    for (int z = 0; z < problem.shape.free; ++z) model.by_shape(c, k, z, shape.col(z));
+    l.by_coefficient.push_back(model.by_coefficient(c));
+    Eigen::VectorXd& by_optics = l.by_optics.emplace_back();
+    if (point.optics.empty()) continue;
+    by_optics.resize(n);
+    model.by_optics(c, k, by_optics);
+  }
+  return l;
+}
+
+}  // namespace goniofit

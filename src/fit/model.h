@@ -1,0 +1,71 @@
+#pragma once
+// Residuals of a problem and their derivatives by every parameter, free or not. The one place where they are computed: the
+// polish, the uncertainties and the derivative tests all read it.
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <vector>
+
+#include "problem.h"
+#include "search.h"
+
+namespace goniofit {
+
+class Model {
+ public:
+  explicit Model(const Problem& problem);
+
+  /// Computes the shape factors at z (problem.shape.free values), with their derivatives if asked for. What follows is at
+  /// the shape set last.
+  void set_shape(const double* z, bool derivatives);
+  /// Sets the free optical parameter of a channel; needed before the channel is read where the problem leaves it free.
+  void set_optics(std::size_t channel, double value);
+
+  /// weight * (model - value), one a reading.
+  void residuals(std::size_t channel, const SmallVector& k, Eigen::VectorXd& out) const;
+  /// d residual / d z[i]; needs set_shape(.., true).
+  void by_shape(std::size_t channel, const SmallVector& k, int i, Eigen::Ref<Eigen::VectorXd> out) const;
+  /// d residual / d coefficient, a column a basis column.
+  [[nodiscard]] const Eigen::MatrixXd& by_coefficient(std::size_t channel) const noexcept { return groups_[group_[channel]].products; }
+  /// d residual / d (f0 or n).
+  void by_optics(std::size_t channel, const SmallVector& k, Eigen::Ref<Eigen::VectorXd> out) const;
+
+ private:
+  /// Shape factors at one wavelength.
+  struct Factors {
+    double wavelength_um = 1.0;
+    Eigen::MatrixXd values;       ///< a column a basis column
+    Eigen::MatrixXd derivatives;  ///< column * shape parameters + parameter
+  };
+  /// Channels of equal optics and equal factors share everything but their readings.
+  struct Group {
+    std::size_t factors = 0;
+    double optics_value = 0.0;
+    Eigen::MatrixXd optics;             ///< weight * optics factor, a column a basis column
+    Eigen::MatrixXd optics_derivatives; ///< by the free optical parameter; empty where fixed
+    Eigen::MatrixXd products;           ///< optics * shape factor
+    Eigen::MatrixXd shape_products;     ///< optics * derivative of the shape factor
+  };
+  std::size_t factors_for(double wavelength_um);
+  void fill_optics(std::size_t channel, Group& group) const;
+  void multiply_out(Group& group, bool derivatives) const;
+
+  const Problem& problem_;
+  Eigen::Index parameters_;
+  std::vector<Factors> factors_;
+  std::vector<Group> groups_;
+  std::vector<std::size_t> group_;  ///< of each channel
+  bool have_derivatives_ = false;
+};
+
+/// Everything about one point: what uncertainties and optimality are read from.
+struct Linearisation {
+  std::vector<Eigen::VectorXd> residuals;        ///< one a channel
+  std::vector<Eigen::MatrixXd> by_shape;         ///< samples x problem.shape.free
+  std::vector<Eigen::MatrixXd> by_coefficient;   ///< samples x columns
+  std::vector<Eigen::VectorXd> by_optics;        ///< empty where fixed
+  double loss = 0.0;
+};
+[[nodiscard]] Linearisation linearise(const Problem& problem, const FitPoint& point);
+
+}  // namespace goniofit

@@ -1,0 +1,32 @@
+#pragma once
+// The polish: all parameters jointly by Ceres, from one start. Alone it ends in the minimum nearest to its start, which for
+// narrow lobes is seldom the right one; fit() starts it from what search() found.
+
+#include <cstddef>
+
+#include "../brdf/material.h"
+#include "../scan/scan.h"
+#include "problem.h"
+#include "search.h"
+#include "settings.h"
+
+namespace goniofit {
+
+struct Polished {
+  FitPoint point;
+  std::size_t iterations = 0;
+  bool converged = false;      ///< Ceres converged and the result satisfies the conditions of a bounded minimum
+  double optimality = 0.0;     ///< largest cosine between the residuals and a free parameter's column; 0 at a minimum
+};
+
+[[nodiscard]] Polished polish(const Problem& problem, const FitPoint& start);
+
+/// polish() from a material's parameters, for recovery studies: its loss is what the right minimum has to reach.
+struct PolishOutcome {
+  double loss = 0.0;
+  bool converged = false;
+  double slope = 0.0;
+};
+[[nodiscard]] PolishOutcome polish_from(const Scan& scan, const FitSettings& settings, const Material& start);
+
+}  // namespace goniofit

@@ -1,0 +1,92 @@
+#pragma once
+// A scan and settings made ready for fitting: which readings, which weights, which parameters are free within which bounds.
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "../brdf/optics.h"
+#include "../scan/scan.h"
+#include "bounded_least_squares.h"
+#include "settings.h"
+#include "surface_basis.h"
+
+namespace goniofit {
+
+/// Readings left out, and why.
+struct Exclusions {
+  std::size_t at_90 = 0;            ///< theta of exactly 90 degrees
+  std::size_t beyond_max_theta = 0;
+  std::size_t negative_values = 0;  ///< kept; counted over the readings used
+};
+
+/// log_shape = offset + map * z: what is left free of the shape parameters' logarithms.
+struct ShapeMap {
+  Eigen::Vector2d offset = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d map = Eigen::Matrix2d::Zero();
+  int free = 0;                     ///< length of z, 0 to 2
+  std::vector<double> lower, upper; ///< bounds of z
+  std::vector<double> lower_value, upper_value;  ///< the same of the parameters themselves, as they were given
+  bool outer_moves_slope = false;   ///< z[0] moves the slope (else, with free = 1, only sigma)
+
+  [[nodiscard]] Eigen::Vector2d log_shape(const double* z) const;
+};
+
+struct ProblemChannel {
+  std::string name;
+  std::optional<double> wavelength_um;
+  ChannelOptics optics{};           ///< where fixed; the start where free
+  std::optional<double> n, kappa;   ///< as given; empty where f0 was
+  Eigen::VectorXd target;           ///< weight * value, one a reading used
+  SmallVector lower, upper;         ///< bounds of the coefficients, by column; equal where fixed
+  double optics_lower = 0.0, optics_upper = 0.0;  ///< of the free optical parameter
+  std::size_t optics_group = 0;     ///< channels of equal optics share their columns
+};
+
+class Problem {
+ public:
+  /// Throws Error (bad_input) where settings and scan contradict each other.
+  Problem(const Scan& scan, const FitSettings& settings);
+
+  [[nodiscard]] std::size_t samples() const noexcept { return pairs.size(); }
+  [[nodiscard]] double wavelength(std::size_t channel) const noexcept { return channels[channel].wavelength_um.value_or(1.0); }
+  /// Optics with the free parameter at `value`; T is double or a dual number.
+  template <class T>
+  [[nodiscard]] BasicOptics<T> optics_at(std::size_t channel, const T& value) const {
+    if (free_optics == FreeOptics::f0) return BasicOptics<T>::of_reflectance(value);
+    return BasicOptics<T>::of_index(value, T(channels[channel].optics.kappa));
+  }
+
+  EffectSet components;
+  Terms terms;
+  FsForm fs_form;
+  double solid_angle_sr;
+  FreeOptics free_optics;
+  std::unique_ptr<SurfaceBasis> basis;
+  ShapeMap shape;
+  std::optional<double> known_sigma_um, known_tau_um;  ///< fixed by the user
+
+  PairBatch pairs;
+  std::vector<std::size_t> rows;  ///< of the scan, one a pair
+  Eigen::VectorXd weight;         ///< square root of each reading's weight in the loss
+  std::vector<ProblemChannel> channels;
+  std::size_t optics_groups = 0;
+  double total = 0.0;             ///< loss of a model that is zero
+
+  Exclusions exclusions;
+  bool components_were_auto = false;
+  std::vector<std::string> notes, warnings;
+
+ private:
+  void choose_rows(const Scan& scan, const FitSettings& settings);
+  void choose_optics(const Scan& scan, const FitSettings& settings);
+  void choose_components(const Scan& scan, const FitSettings& settings);
+  void choose_shape(const FitSettings& settings);
+  void choose_coefficients(const FitSettings& settings);
+  void fill_targets(const Scan& scan, const FitSettings& settings);
+};
+
+}  // namespace goniofit

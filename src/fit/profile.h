@@ -1,0 +1,60 @@
+#pragma once
+// The loss as a function of the shape parameters alone, the coefficients solved inside.
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <vector>
+
+#include "problem.h"
+#include "search.h"
+
+namespace goniofit {
+
+class Profile {
+ public:
+  explicit Profile(const Problem& problem);
+
+  /// The profile at z (problem.shape.free values). Work that depends on z[0] alone is kept from the call before.
+  [[nodiscard]] double loss(const double* z);
+  /// The same with the point itself.
+  [[nodiscard]] FitPoint point(const double* z);
+  [[nodiscard]] std::size_t evaluations() const noexcept { return evaluations_; }
+
+ private:
+  /// A value of the optics that a group of channels may take; one where they are fixed.
+  struct Candidate {
+    double value = 0.0;               ///< of the free optical parameter
+    Eigen::MatrixXd early, late;      ///< weight * optics factor, a column a basis column
+    SmallMatrix gram;                 ///< of the early rows
+    Eigen::MatrixXd rhs;              ///< column a channel of the group
+  };
+  struct Group {
+    std::vector<std::size_t> channels;
+    std::vector<Candidate> candidates;
+  };
+  struct Choice {
+    BoundedSolution solution;
+    double loss = 0.0, optics = 0.0;
+  };
+
+  void add_group(std::size_t group);
+  [[nodiscard]] Eigen::MatrixXd weighted_optics(const ChannelOptics& optics, const PairBatch& pairs,
+                                                const Eigen::VectorXd& weight) const;
+  void update_early(const Eigen::Vector2d& log_shape);
+  [[nodiscard]] Choice choose_from(std::size_t channel, const Group& group, std::size_t position,
+                                   const Eigen::MatrixXd& late_shape) const;
+
+  const Problem& problem_;
+  std::size_t columns_;
+  // Rows whose factors read only the first shape parameter come first ("early"), the others ("late") are few or none.
+  PairBatch early_, late_;
+  Eigen::VectorXd early_weight_, late_weight_;
+  std::vector<Eigen::VectorXd> early_target_, late_target_;  ///< one a channel
+  std::vector<double> target2_;                              ///< squared norm of each channel's target
+  std::vector<Group> groups_;
+  Eigen::MatrixXd early_shape_, product_;
+  double early_log_slope_;
+  std::size_t evaluations_ = 0;
+};
+
+}  // namespace goniofit

@@ -1,0 +1,32 @@
+#pragma once
+// The global search: at each point of a grid of the one or two shape parameters the coefficients are solved within their
+// bounds, which leaves a profile of the loss over the shape alone. Its local minima are refined and handed to the polish.
+
+#include <cstddef>
+#include <vector>
+
+#include "bounded_least_squares.h"
+#include "problem.h"
+
+namespace goniofit {
+
+/// A point of the whole parameter space.
+struct FitPoint {
+  std::vector<double> z;                  ///< free shape parameters (logarithms)
+  std::vector<SmallVector> coefficients;  ///< one a channel
+  std::vector<double> optics;             ///< the free optical parameter, one a channel; empty where fixed
+  double loss = 0.0;
+};
+
+struct SearchOutcome {
+  std::vector<FitPoint> minima;  ///< best first
+  std::size_t evaluations = 0;   ///< points of the profile
+};
+
+/// Deterministic. `most` limits the minima returned; only such as come within 5 % of the best loss (plus round-off) are.
+[[nodiscard]] SearchOutcome search(const Problem& problem, std::size_t most = 3);
+
+/// The coefficients (and optics) that are best at the given shape.
+[[nodiscard]] FitPoint solve_at(const Problem& problem, const std::vector<double>& z);
+
+}  // namespace goniofit

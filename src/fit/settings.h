@@ -1,0 +1,73 @@
+#pragma once
+// What is asked of a fit: the value that recipe and flags are merged into. No file format.
+
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "../brdf/material.h"
+
+namespace goniofit {
+
+/// A fixed value, or bounds; unset members keep the default.
+struct ParameterSetting {
+  std::optional<double> value, min, max;
+};
+
+/// Each sample's weight in the loss, on top of nothing else: the published cos(theta_i), or 1.
+enum class Weight : std::uint8_t { cosine, none };
+/// What of the optical constants the fit may move, per channel.
+enum class FreeOptics : std::uint8_t { none, n, f0 };
+
+struct FitSettings {
+  std::optional<EffectSet> components;  ///< nullopt is "auto"
+  Terms terms;
+  FsForm fs_form = FsForm::printed;
+  Weight weight = Weight::cosine;
+  std::vector<double> n, kappa, f0;     ///< none (scan's metadata, else n = 1.5, kappa = 0), one, or one a channel
+  FreeOptics free_optics = FreeOptics::none;
+  /// By name: slope, sigma_um, tau_um, k_dd, k_udf, k_uds, k_fs, n, f0 for every channel, or "CHANNEL.name" for one.
+  std::map<std::string, ParameterSetting> parameters;
+  std::optional<double> solid_angle_sr;  ///< else the scan's, else 0.0005
+  double max_theta_deg = 90.0;           ///< samples with theta_i or theta_r above are left out; exactly 90 always is
+};
+
+/// Bounds unless told otherwise.
+inline constexpr double slope_min = 1e-4, slope_max = 10.0;
+inline constexpr double sigma_um_min = 1e-3, sigma_um_max = 100.0;
+inline constexpr double n_min = 1e-3, n_max = 100.0;
+
+struct Noise {
+  double relative = 0.0;  ///< standard deviation as a part of the value
+  double additive = 0.0;  ///< standard deviation in 1/sr
+};
+
+enum class Sampling : std::uint8_t { incidence_plane, hemisphere };
+
+/// The [verify] table of a recipe.
+struct VerifySettings {
+  std::filesystem::path truth;
+  Noise noise{0.02, 0.0};
+  Sampling sampling = Sampling::hemisphere;
+  std::size_t trials = 200;
+  double slope_bias = 0.01;                                ///< largest relative bias of the slope that passes
+  std::optional<std::pair<double, double>> coverage_95;    ///< smallest and largest coverage that passes
+};
+
+struct Recipe {
+  std::filesystem::path source;               ///< the recipe itself
+  std::string name;                           ///< of the material; empty: the scan's
+  std::vector<std::filesystem::path> scans;   ///< may be empty: the command line gives them
+  std::vector<std::string> channels;          ///< empty: all
+  /// A table that n and kappa are taken from at the channels' wavelengths; settings has no n, kappa and f0 then.
+  std::optional<std::filesystem::path> optical_constants;
+  FitSettings settings;
+  std::uint64_t seed = 1;
+  std::optional<VerifySettings> verify;
+};
+
+}  // namespace goniofit

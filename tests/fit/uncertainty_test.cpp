@@ -1,0 +1,99 @@
+#include "fit/uncertainty.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <cmath>
+
+#include "fit/polish.h"
+#include "fit/search.h"
+#include "support/materials.h"
+#include "synthetic/simulate.h"
+
+namespace goniofit {
+namespace {
+
+FitSettings settings_for(const Material& truth) {
+  FitSettings s;
+  s.components = truth.components;
+  return s;
+}
+
+// The formula written out over the whole dense Jacobian.
+TEST(Uncertainty, IsTheSandwichOfTheWholeJacobian) {
+  const Material truth = test::laser_paper_73();
+  const Scan scan = simulate(truth, Sampling::incidence_plane, {0.03, 0.0}, 4);
+  const Problem problem(scan, settings_for(truth));
+  const Polished best = polish(problem, search(problem).minima.front());
+  const Linearisation l = linearise(problem, best.point);
+  const Uncertainties u = uncertainties(problem, best.point, l);
+  const auto n = static_cast<Eigen::Index>(problem.samples());
+  Eigen::MatrixXd j = Eigen::MatrixXd::Zero(3 * n, 1 + 9);
+  Eigen::VectorXd r(3 * n);
+  for (Eigen::Index c = 0; c < 3; ++c) {
+    const auto channel = static_cast<std::size_t>(c);
+    j.block(c * n, 0, n, 1) = l.by_shape[channel];
+    j.block(c * n, 1 + 3 * c, n, 3) = l.by_coefficient[channel];
+    r.segment(c * n, n) = l.residuals[channel];
+  }
+  const Eigen::MatrixXd bread = (j.transpose() * j).inverse();
+  const Eigen::VectorXd h = (j * bread).cwiseProduct(j).rowwise().sum();
+  const Eigen::VectorXd e = r.array() / (1.0 - h.array());
+  const Eigen::MatrixXd v = bread * j.transpose() * e.array().square().matrix().asDiagonal() * j * bread;
+  EXPECT_NEAR(u.shape[0].u / std::sqrt(v(0, 0)), 1.0, 1e-9);
+  for (std::size_t c = 0; c < 3; ++c) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto at = static_cast<Eigen::Index>(1 + 3 * c + k);
+      ASSERT_EQ(u.coefficients[c][k].state, ParameterState::free);
+      EXPECT_NEAR(u.coefficients[c][k].u / std::sqrt(v(at, at)), 1.0, 1e-9);
+    }
+  }
+}
+
+TEST(Uncertainty, HasNoneOnABoundAndNoneWhereNothingIsSeen) {
+  const Material truth = test::garnet_red_paint_13();  // k_uds of G and B are 0
+  const Scan scan = simulate(truth, Sampling::hemisphere, {0.0, 0.0}, 4);
+  FitSettings s = settings_for(truth);
+  s.parameters["k_uds"].value = 0.0;
+  s.parameters["R.k_dd"].value = 0.0;
+  const Problem problem(scan, s);
+  const Polished best = polish(problem, search(problem).minima.front());
+  const Uncertainties u = uncertainties(problem, best.point, linearise(problem, best.point));
+  EXPECT_EQ(u.coefficients[0][0].state, ParameterState::fixed);
+  EXPECT_EQ(u.coefficients[1][1].state, ParameterState::fixed);
+  EXPECT_FALSE(std::isfinite(u.coefficients[1][1].u));
+  EXPECT_EQ(u.coefficients[1][0].state, ParameterState::free);
+}
+
+TEST(Uncertainty, GrowsWithTheNoise) {
+  const Material truth = test::ground_glass_41();
+  const auto slope_u = [&](double noise) {
+    const Problem problem(simulate(truth, Sampling::hemisphere, {noise, 0.0}, 9), settings_for(truth));
+    const Polished best = polish(problem, search(problem).minima.front());
+    return uncertainties(problem, best.point, linearise(problem, best.point)).shape[0].u;
+  };
+  EXPECT_NEAR(slope_u(0.02) / slope_u(0.002), 10.0, 0.3);
+}
+
+// The spread of the slope over simulated scans against what each scan states of itself.
+TEST(Uncertainty, StatesTheSpreadOfRepeatedScans) {
+  const Material truth = test::ground_glass_41();
+  constexpr int trials = 120;
+  double sum = 0.0;
+  double sum2 = 0.0;
+  double stated2 = 0.0;
+  for (int t = 0; t < trials; ++t) {
+    const Problem problem(simulate(truth, Sampling::incidence_plane, {0.02, 0.0}, 1000 + static_cast<std::uint64_t>(t)), settings_for(truth));
+    const Polished best = polish(problem, search(problem).minima.front());
+    const double u = uncertainties(problem, best.point, linearise(problem, best.point)).shape[0].u;
+    sum += best.point.z[0];
+    sum2 += best.point.z[0] * best.point.z[0];
+    stated2 += u * u;
+  }
+  const double spread = std::sqrt((sum2 - sum * sum / trials) / (trials - 1));
+  const double stated = std::sqrt(stated2 / trials);
+  EXPECT_NEAR(stated / spread, 1.0, 0.25);  // the spread of 120 trials is itself known to 6.5 %
+}
+
+}  // namespace
+}  // namespace goniofit

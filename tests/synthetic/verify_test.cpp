@@ -1,0 +1,142 @@
+#include "synthetic/verify.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "io/material_io.h"
+#include "support/error.h"
+#include "support/paths.h"
+
+namespace goniofit {
+namespace {
+
+/// A rough metal of one channel: quick to fit.
+Material metal() {
+  Material m;
+  m.name = "metal";
+  m.components = {Effect::dd, Effect::udf};
+  m.surface.slope = 0.17;
+  MaterialChannel g{.name = "G", .wavelength_um = 0.55, .n = 0.958, .kappa = 6.69, .f0 = {}, .k = {}};
+  g.coefficient(Coefficient::k_dd) = 0.45;
+  g.coefficient(Coefficient::k_udf) = 0.33;
+  m.channels = {g};
+  return m;
+}
+
+class VerifyRecipe : public ::testing::Test {
+ protected:
+  void SetUp() override { truth(metal()); }
+
+  void truth(const Material& material) {
+    write_material(scratch_ / "metal.truth.json", material);
+    recipe_.source = scratch_ / "metal.toml";
+    recipe_.settings.components = EffectSet{Effect::dd, Effect::udf};
+    recipe_.verify = VerifySettings{};
+    recipe_.verify->truth = scratch_ / "metal.truth.json";
+    recipe_.verify->sampling = Sampling::incidence_plane;
+    recipe_.verify->trials = 30;
+  }
+
+  test::ScratchDir scratch_;
+  Recipe recipe_;
+};
+
+const Recovery& find(const VerifyReport& report, const std::string& parameter) {
+  const auto found = std::find_if(report.parameters.begin(), report.parameters.end(),
+                                  [&](const Recovery& r) { return r.parameter == parameter; });
+  if (found == report.parameters.end()) throw std::runtime_error("no parameter " + parameter);
+  return *found;
+}
+
+TEST_F(VerifyRecipe, RecoversTheTruth) {
+  const VerifyReport report = verify_recipe(recipe_, 0, 1);
+  EXPECT_EQ(report.name, "metal");
+  EXPECT_EQ(report.trials, 30U);
+  EXPECT_EQ(report.failures, 0U);
+  EXPECT_TRUE(report.missed.empty()) << report.missed.front();
+  for (const auto& [name, value] : {std::pair{"slope", 0.17}, {"G.k_dd", 0.45}, {"G.k_udf", 0.33}}) {
+    const Recovery& r = find(report, name);
+    EXPECT_DOUBLE_EQ(r.truth, value);
+    EXPECT_EQ(r.stated, 30U) << name;
+    EXPECT_GT(r.spread, 0.0) << name;
+    EXPECT_LT(std::fabs(r.bias), 4.0 * r.spread / std::sqrt(30.0)) << name;
+    EXPECT_GT(r.mean_u, 0.5 * r.spread) << name;
+    EXPECT_LT(r.mean_u, 2.0 * r.spread) << name;
+    EXPECT_GT(r.coverage_95, 0.8) << name;
+  }
+}
+
+TEST_F(VerifyRecipe, IsAFunctionOfTheSeed) {
+  const VerifyReport once = verify_recipe(recipe_, 8, 3);
+  const VerifyReport again = verify_recipe(recipe_, 8, 3);
+  const VerifyReport other = verify_recipe(recipe_, 8, 4);
+  EXPECT_EQ(once.trials, 8U);
+  for (const char* name : {"slope", "G.k_dd"}) {
+    EXPECT_EQ(find(once, name).mean, find(again, name).mean);
+    EXPECT_EQ(find(once, name).spread, find(again, name).spread);
+    EXPECT_NE(find(once, name).mean, find(other, name).mean);
+  }
+}
+
+TEST_F(VerifyRecipe, MissesABoundThatNoFitterMeets) {
+  recipe_.verify->slope_bias = 1e-9;
+  const VerifyReport report = verify_recipe(recipe_, 4, 1);
+  ASSERT_EQ(report.missed.size(), 1U);
+  EXPECT_EQ(report.missed[0].rfind("slope: the mean is ", 0), 0U) << report.missed[0];
+}
+
+// A fit that is told half of the metal's reflectance puts k_dd at twice its value: the intervals must be seen to be
+// wrong.
+TEST_F(VerifyRecipe, SeesAFitWithWrongOpticalConstants) {
+  Material half = metal();
+  half.channels[0].coefficient(Coefficient::k_dd) = 0.2;
+  truth(half);
+  recipe_.settings.n = {1.5};
+  recipe_.settings.kappa = {1.5};
+  recipe_.verify->coverage_95 = std::pair{0.9, 1.0};
+  const VerifyReport report = verify_recipe(recipe_, 10, 1);
+  EXPECT_FALSE(report.missed.empty());
+  EXPECT_EQ(find(report, "G.k_dd").coverage_95, 0.0);
+}
+
+TEST_F(VerifyRecipe, FixedParametersAreNotRecovered) {
+  recipe_.settings.parameters["slope"].value = 0.17;
+  const VerifyReport report = verify_recipe(recipe_, 3, 1);
+  EXPECT_EQ(report.parameters.size(), 2U);
+  EXPECT_THROW((void)find(report, "slope"), std::runtime_error);
+}
+
+TEST_F(VerifyRecipe, WithoutNoiseRecoversExactly) {
+  recipe_.verify->noise = {0.0, 0.0};
+  const VerifyReport report = verify_recipe(recipe_, 1, 1);
+  EXPECT_EQ(report.failures, 0U);
+  EXPECT_NEAR(find(report, "slope").mean, 0.17, 1e-7);
+  EXPECT_NEAR(find(report, "G.k_udf").mean, 0.33, 1e-7);
+}
+
+TEST_F(VerifyRecipe, NeedsATruthAndATrial) {
+  recipe_.verify->trials = 0;
+  EXPECT_THROW((void)verify_recipe(recipe_, 0, 1), Error);
+  recipe_.verify.reset();
+  EXPECT_THROW((void)verify_recipe(recipe_, 5, 1), Error);
+}
+
+TEST(VerifyRandom, FindsTheMinimumOfMaterialsNobodyChose) {
+  const RandomRecoveryReport report = verify_random(12, 1, 2);
+  EXPECT_EQ(report.materials, 12U);
+  EXPECT_EQ(report.polish_starts, 24U);
+  EXPECT_EQ(report.wrong_minima, 0U) << report.failures.front();
+  EXPECT_TRUE(report.failures.empty());
+  EXPECT_GE(report.worst_ratio, 1.0);
+  EXPECT_LT(report.worst_ratio, 1.0005);
+  EXPECT_LE(report.polish_failures, report.polish_starts);
+}
+
+TEST(VerifyRandom, IsAFunctionOfTheSeed) {
+  EXPECT_EQ(verify_random(2, 5, 1).worst_ratio, verify_random(2, 5, 1).worst_ratio);
+}
+
+}  // namespace
+}  // namespace goniofit

@@ -1,0 +1,100 @@
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+#include "report/fit_report.h"
+#include "report/fit_rows.h"
+
+namespace goniofit {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// JSON has no infinity: an absent bound is null.
+Json finite_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+Json value_or_null(const std::optional<double>& value) { return value ? finite_or_null(*value) : Json(nullptr); }
+
+Json parameter_json(const FittedParameter& p) {
+  Json out;
+  out["name"] = p.name;
+  out["channel"] = p.channel.empty() ? Json(nullptr) : Json(p.channel);
+  out["unit"] = p.unit;
+  out["value"] = value_or_null(p.value);
+  out["standard_uncertainty"] = value_or_null(p.u);
+  out["min"] = finite_or_null(p.lower);
+  out["max"] = finite_or_null(p.upper);
+  out["state"] = state_of(p);
+  return out;
+}
+
+Json model_json(const FitResult& result) {
+  const Material& material = result.material;
+  Json out;
+  out["components"] = effect_names(material.components);
+  out["components_auto"] = result.components_were_auto;
+  out["terms"] = {{"fresnel", name_of(material.terms.fresnel)},
+                  {"shadowing", name_of(material.terms.shadowing)},
+                  {"effective_roughness", name_of(material.terms.effective_roughness)},
+                  {"distribution", name_of(material.terms.distribution)}};
+  out["forms"] = {{"fs", name_of(material.fs_form)}};
+  out["solid_angle_sr"] = material.solid_angle_sr;
+  return out;
+}
+
+Json channels_json(const FitResult& result) {
+  Json out = Json::array();
+  for (std::size_t c = 0; c < result.material.channels.size(); ++c) {
+    const MaterialChannel& channel = result.material.channels[c];
+    Json one;
+    one["name"] = channel.name;
+    one["wavelength_um"] = value_or_null(channel.wavelength_um);
+    one["n"] = value_or_null(channel.n);
+    one["kappa"] = value_or_null(channel.kappa);
+    one["f0"] = value_or_null(channel.f0);
+    one["rms"] = c < result.channel_rms.size() ? finite_or_null(result.channel_rms[c]) : Json(nullptr);
+    out.push_back(std::move(one));
+  }
+  return out;
+}
+
+Json reflectance_json(const FitResult& result) {
+  Json out = Json::array();
+  for (const HemisphericalReflectance& at : result.reflectance) {
+    Json row;
+    row["theta_i_deg"] = at.theta_i_deg;
+    for (const double value : at.by_channel) row["by_channel"].push_back(finite_or_null(value));
+    out.push_back(std::move(row));
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string fit_report_json(const FitResult& result, const Scan& scan) {
+  Json out;
+  out["name"] = result.material.name;
+  out["scan"] = {{"source", scan.source},
+                 {"geometry", geometry_name(scan.geometry)},
+                 {"directions", scan.size()},
+                 {"channels", scan.channels.size()}};
+  out["model"] = model_json(result);
+  out["parameters"] = Json::array();
+  for (const FittedParameter& p : result.parameters) out["parameters"].push_back(parameter_json(p));
+  out["channels"] = channels_json(result);
+  out["converged"] = result.converged;
+  out["loss"] = finite_or_null(result.loss);
+  out["rms"] = finite_or_null(result.rms);
+  out["samples"] = result.samples;
+  out["left_out"] = {{"theta_90", result.left_out_90}, {"max_theta", result.left_out_max_theta}};
+  out["negative_values"] = result.negative_values;
+  out["search"] = {{"evaluations", result.search_evaluations},
+                   {"polish_starts", result.polish_starts},
+                   {"polish_iterations", result.polish_iterations},
+                   {"seconds", result.seconds}};
+  out["reflectance"] = reflectance_json(result);
+  out["notes"] = result.notes;
+  out["warnings"] = result.warnings;
+  return out.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
+}  // namespace goniofit

@@ -1,0 +1,17 @@
+#pragma once
+// The drawing program behind the plots.
+
+#include <filesystem>
+#include <string>
+
+namespace goniofit {
+
+/// `text` as a gnuplot string constant. Single quotes: no backquote command, no escape and no variable is evaluated in
+/// it. Control characters become blanks.
+[[nodiscard]] std::string gnuplot_quoted(const std::string& text);
+
+/// Runs gnuplot on `script`, whose terminal writes to standard output, into `output`. No shell is involved and the
+/// user's start-up files are not read. Throws Error (system) with what gnuplot said when it is missing or fails.
+void run_gnuplot(const std::string& script, const std::filesystem::path& output);
+
+}  // namespace goniofit

@@ -1,0 +1,148 @@
+// goniofit fit: the main job.
+
+#include "fit/fit.h"
+
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "cli/commands.h"
+#include "cli/console.h"
+#include "cli/fit_flags.h"
+#include "cli/outputs.h"
+#include "io/exr_table.h"
+#include "io/material_io.h"
+#include "io/recipe_io.h"
+#include "io/scan_reader.h"
+#include "report/plot.h"
+#include "support/error.h"
+#include "support/text.h"
+
+namespace goniofit::cli {
+namespace {
+
+using Path = std::filesystem::path;
+
+struct Options {
+  std::vector<Path> scans;
+  std::optional<Path> recipe;
+  Path output, table, exr;
+  bool has_output = false;
+  std::vector<Path> plots;
+  std::string plot_axis = "auto";
+  FitFlags flags;
+  std::optional<std::string> name;
+  bool ignore_columns = false, json = false, quiet = false;
+};
+
+PlotOptions plot_options(const Options& options) {
+  PlotOptions plot;
+  if (options.plot_axis == "linear") {
+    plot.axis = PlotAxis::linear;
+  } else if (options.plot_axis == "log") {
+    plot.axis = PlotAxis::log;
+  } else if (options.plot_axis != "auto") {
+    throw usage_error("--plot-axis: " + in_quotes(options.plot_axis) + ", expected auto, linear or log");
+  }
+  return plot;
+}
+
+void check_usage(const Options& options, const std::vector<Path>& scans, const Recipe& recipe) {
+  if (scans.empty()) throw usage_error("no scan: name one, or a recipe that does (--recipe)");
+  const bool material_on_stdout = options.has_output && is_stdout(options.output);
+  if (material_on_stdout && options.json) {
+    throw usage_error("--json: the report and the material (-o -) cannot both go to standard output");
+  }
+  for (const Path& plot : options.plots) {
+    if (is_stdout(plot)) throw usage_error("--plot: a picture needs a file name ending in .svg or .png");
+  }
+  std::vector<Path> outputs{options.output, options.table, options.exr};
+  outputs.insert(outputs.end(), options.plots.begin(), options.plots.end());
+  std::vector<Path> inputs = scans;
+  if (options.recipe) inputs.push_back(*options.recipe);
+  if (const auto constants = optical_constants_of(options.flags, recipe)) inputs.push_back(*constants);
+  check_outputs(outputs, inputs);
+}
+
+Scan read_scans(const Options& options, const std::vector<Path>& paths, const Recipe& recipe) {
+  std::vector<Scan> scans;
+  scans.reserve(paths.size());
+  for (const Path& path : paths) scans.push_back(read_scan(path, {.ignore_unknown_columns = options.ignore_columns}));
+  Scan scan = paths.size() == 1 ? std::move(scans.front()) : concatenate(scans);
+  const std::vector<std::string> channels = channels_of(options.flags, recipe);
+  if (!channels.empty()) scan = select_channels(scan, channels);
+  if (options.name || !recipe.name.empty()) scan.name = options.name.value_or(recipe.name);
+  return scan;
+}
+
+void write_outputs(const Options& options, const Scan& scan, const FitResult& result) {
+  if (options.has_output && !is_stdout(options.output)) write_material(options.output, result.material);
+  if (!options.table.empty()) write_result(options.table, to_csv({result.material}));
+  if (!options.exr.empty()) write_exr(options.exr, result.material, tabulate(result.material));
+  for (const Path& plot : options.plots) plot_fit(plot, scan, result.material, plot_options(options));
+}
+
+void print_result(const Options& options, const Scan& scan, const FitResult& result) {
+  if (options.json) {
+    to_stdout(fit_report_json(result, scan));
+  } else if (options.has_output && is_stdout(options.output)) {
+    // Standard output is the material's: the report goes beside it.
+    if (!options.quiet) std::cerr << fit_report(result, scan, {.color = false, .show_reflectance = true});
+    to_stdout(to_json(result.material));
+  } else {
+    to_stdout(fit_report(result, scan, stdout_style()));
+  }
+}
+
+int run(const Options& options) {
+  const Recipe recipe = options.recipe ? read_recipe(*options.recipe) : Recipe{};
+  const std::vector<Path>& paths = options.scans.empty() ? recipe.scans : options.scans;
+  check_usage(options, paths, recipe);
+  const PlotOptions plot = plot_options(options);
+  const Scan scan = read_scans(options, paths, recipe);
+  for (const Path& path : options.plots) check_plot(path, scan, plot);
+  const FitSettings settings = settings_of(options.flags, recipe, scan);
+  const FitResult result = [&] {
+    const ProgressLine progress("fitting " + in_quotes(scan.name), options.quiet);
+    FitResult fitted = fit(scan, settings);
+    add_reflectance(fitted, scan);
+    return fitted;
+  }();
+  write_outputs(options, scan, result);
+  print_result(options, scan, result);
+  return result.converged ? 0 : static_cast<int>(ErrorKind::failed_result);
+}
+
+}  // namespace
+
+void add_fit(CLI::App& program, int& status) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* command = program.add_subcommand("fit", "Fit the model to scans and report on the fit");
+  command->add_option("SCAN", options->scans, "scan CSV; the readings of several are fitted together")->type_name("");
+  command->add_option("--recipe", options->recipe, "settings from a TOML file; flags win over it")->type_name("FILE");
+  CLI::Option* output =
+      command->add_option("-o,--output", options->output, "the material as JSON ('-': standard output)")
+          ->type_name("FILE");
+  command->add_option("--plot", options->plots, "measured and fitted, .svg or .png; may be repeated")
+      ->type_name("FILE")
+      ->allow_extra_args(false);
+  command->add_option("--plot-axis", options->plot_axis, "auto, linear or log")->type_name("AXIS");
+  command->add_option("--table", options->table, "the parameters as a CSV table")->type_name("FILE");
+  command->add_option("--exr", options->exr, "the fitted BRDF tabulated in OpenEXR")->type_name("FILE");
+  command->add_option("--name", options->name, "name of the material, instead of the scan's")->type_name("NAME");
+  command->add_flag("--ignore-columns", options->ignore_columns, "skip columns that are no angle and no channel");
+  command->add_flag("--json", options->json, "the report as JSON");
+  command->add_flag("-q,--quiet", options->quiet, "no progress on standard error");
+  add_fit_flags(*command, options->flags);
+  command->footer(
+      "Example:\n  goniofit fit data/garnet_red_paint_13.csv --n 1.7 --components dd,uds,fs -o garnet.json --plot "
+      "garnet.svg");
+  command->callback([options, output, &status] {
+    options->has_output = output->count() > 0;
+    status = run(*options);
+  });
+}
+
+}  // namespace goniofit::cli

@@ -1,0 +1,38 @@
+#pragma once
+// The flags of `goniofit fit` that say how to fit, and how they and a recipe become settings.
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "../fit/settings.h"
+#include "../scan/scan.h"
+
+namespace goniofit::cli {
+
+struct FitFlags {
+  std::optional<std::string> components, channels;
+  std::optional<std::string> n, kappa, f0, free_optics;
+  std::optional<std::filesystem::path> optical_constants;
+  std::vector<std::string> fixed, bounded;
+  std::optional<std::string> terms, fresnel, shadowing, effective_roughness, distribution, fs_form;
+  std::optional<std::string> loss, weight;
+  std::optional<std::string> max_theta, solid_angle;
+};
+
+void add_fit_flags(CLI::App& command, FitFlags& flags);
+
+/// The channels to fit: the flag's, else the recipe's; empty is all.
+[[nodiscard]] std::vector<std::string> channels_of(const FitFlags& flags, const Recipe& recipe);
+
+/// The recipe's settings with the flags put over them. `scan` is the one to be fitted, its channels selected: optical
+/// constants are interpolated at their wavelengths. Throws Error (bad_input) naming the flag.
+[[nodiscard]] FitSettings settings_of(const FitFlags& flags, const Recipe& recipe, const Scan& scan);
+
+/// The file of optical constants in force; nullopt where another source of n and kappa is.
+[[nodiscard]] std::optional<std::filesystem::path> optical_constants_of(const FitFlags& flags, const Recipe& recipe);
+
+}  // namespace goniofit::cli

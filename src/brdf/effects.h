@@ -8,8 +8,8 @@
 //   uds     k_uds        T(cos_i) T(cos_r)   1/pi
 //   fs      k_fs         T(cos_i) T(cos_r)   (1-cos_i)(1-cos_r) exp(-tan²θ_f/(16 m_e²)) / pi
 //
-// Only the optics factor reads a channel's n and kappa, only the shape factor reads slope, sigma and the wavelength. That is
-// what makes a fit fast: shape factors are shared by channels, optics factors by every point of the search.
+// Only the optics factor reads a channel's n and kappa, only the shape factor reads slope, sigma and the wavelength.
+// That is what makes a fit fast: shape factors are shared by channels, optics factors by every point of the search.
 
 #include "../geometry/angles.h"
 #include "../geometry/pair.h"
@@ -24,10 +24,13 @@ enum class OpticsFactor : std::uint8_t { one, fresnel, transmission };
 
 [[nodiscard]] constexpr OpticsFactor optics_factor_of(Coefficient c) noexcept {
   switch (c) {
-    case Coefficient::k_dd: return OpticsFactor::fresnel;
-    case Coefficient::k_udf: return OpticsFactor::one;
+    case Coefficient::k_dd:
+      return OpticsFactor::fresnel;
+    case Coefficient::k_udf:
+      return OpticsFactor::one;
     case Coefficient::k_uds:
-    case Coefficient::k_fs: return OpticsFactor::transmission;
+    case Coefficient::k_fs:
+      return OpticsFactor::transmission;
   }
   return OpticsFactor::one;
 }
@@ -47,7 +50,8 @@ template <ShadowingTier shadowing, EffectiveRoughnessTier roughness, class T, cl
 
 /// S D / (pi cos_i cos_r).
 template <class T, class G, class Floor = math::NoFloor>
-[[nodiscard]] [[gnu::always_inline]] inline T dd_shape(const SurfaceTerms<T>& t, const BasicPair<G>& p, Floor floor = {}) {
+[[nodiscard]] [[gnu::always_inline]] inline T dd_shape(const SurfaceTerms<T>& t, const BasicPair<G>& p,
+                                                       Floor floor = {}) {
   using namespace math;
   const T lobe = exp(floored(rough_limit_log(t.log_m_e, p), floor));
   return t.shadowing_over_cosines * (slope_independent_factor(p) / pi) * lobe;
@@ -56,7 +60,8 @@ template <class T, class G, class Floor = math::NoFloor>
 /// (1-cos_i)(1-cos_r) exp(-tan²θ_f/(16 m_e²)) / pi on the forward side. `printed` has tan²θ_f of V alone and is not
 /// reciprocal (up to 86 % of its maximum for the paper's laser paper); `reciprocal` takes the mean of both orders.
 template <FsForm form, class T, class G, class Floor = math::NoFloor>
-[[nodiscard]] [[gnu::always_inline]] inline T fs_shape(const SurfaceTerms<T>& t, const BasicPair<G>& p, Floor floor = {}) {
+[[nodiscard]] [[gnu::always_inline]] inline T fs_shape(const SurfaceTerms<T>& t, const BasicPair<G>& p,
+                                                       Floor floor = {}) {
   using namespace math;
   const G tan2 = form == FsForm::printed ? p.tan2_f : 0.5 * (p.tan2_f + p.tan2_f_swapped);
   const G reach = p.one_minus_cos_i * p.one_minus_cos_r / pi;
@@ -70,11 +75,11 @@ template <class G>
   return p.mirror_distance2 <= solid_angle_sr / pi;
 }
 
-/// S exp(-g) / (cos_i dOmega), g = [2 pi sigma_e (cos_i + cos_r) / lambda]², wherever the caller found the cone. The mirror
-/// preserves the source's solid angle: LT (3) prints cos_r in its place, LT (16) does not.
+/// S exp(-g) / (cos_i dOmega), g = [2 pi sigma_e (cos_i + cos_r) / lambda]², wherever the caller found the cone. The
+/// mirror preserves the source's solid angle: LT (3) prints cos_r in its place, LT (16) does not.
 template <class T, class G>
-[[nodiscard]] [[gnu::always_inline]] inline T coh_shape(const SurfaceTerms<T>& t, const T& log_slope, const T& log_sigma,
-                                                        double wavelength_um, double solid_angle_sr,
+[[nodiscard]] [[gnu::always_inline]] inline T coh_shape(const SurfaceTerms<T>& t, const T& log_slope,
+                                                        const T& log_sigma, double wavelength_um, double solid_angle_sr,
                                                         const BasicPair<G>& p) {
   using namespace math;
   const T sigma_e = exp(log_sigma + t.log_m_e - log_slope);

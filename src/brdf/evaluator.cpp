@@ -35,10 +35,14 @@ double surface_shape(const Material& m, const MaterialChannel& channel, const Pa
 double shape(const Material& m, const MaterialChannel& channel, const Pair& p, Effect effect) noexcept {
   switch (effect) {
     case Effect::udf:
-    case Effect::uds: return 1.0 / pi;
-    case Effect::coh: return in_mirror_cone(p, m.solid_angle_sr) ? surface_shape(m, channel, p, effect) : 0.0;
-    case Effect::fs: return p.forward ? surface_shape(m, channel, p, effect) : 0.0;
-    case Effect::dd: return surface_shape(m, channel, p, effect);
+    case Effect::uds:
+      return 1.0 / pi;
+    case Effect::coh:
+      return in_mirror_cone(p, m.solid_angle_sr) ? surface_shape(m, channel, p, effect) : 0.0;
+    case Effect::fs:
+      return p.forward ? surface_shape(m, channel, p, effect) : 0.0;
+    case Effect::dd:
+      return surface_shape(m, channel, p, effect);
   }
   return 0.0;
 }

@@ -9,8 +9,8 @@
 
 namespace goniofit {
 
-/// A value beyond this is returned as this: the one documented saturation (the dd lobe of a smooth surface exceeds it in
-/// the mirror direction at extreme grazing).
+/// A value beyond this is returned as this: the one documented saturation (the dd lobe of a smooth surface exceeds it
+/// in the mirror direction at extreme grazing).
 inline constexpr double saturation = 1e300;
 
 class Evaluator {
@@ -32,8 +32,8 @@ class Evaluator {
   Material material_;
 };
 
-/// Directional-hemispherical reflectance at theta_i: the integral of f cos(theta_r) over the hemisphere, all channels. The
-/// coherent part is added by its energy, k_dd F S exp(-g). Relative accuracy about 1e-4 up to 85 degrees.
+/// Directional-hemispherical reflectance at theta_i: the integral of f cos(theta_r) over the hemisphere, all channels.
+/// The coherent part is added by its energy, k_dd F S exp(-g). Relative accuracy about 1e-4 up to 85 degrees.
 [[nodiscard]] std::vector<double> hemispherical_reflectance(const Evaluator& evaluator, double theta_i_deg);
 
 }  // namespace goniofit

@@ -30,9 +30,12 @@ using ChannelOptics = BasicOptics<double>;
 template <class T, class G>
 [[nodiscard]] T fresnel(FresnelTier tier, const BasicOptics<T>& o, const BasicPair<G>& p) {
   switch (tier) {
-    case FresnelTier::schlick: return fresnel_schlick(o.f0, p.one_minus_cos_h);
-    case FresnelTier::exact: return fresnel_exact(o.n, o.kappa, p.cos_h, p.one_minus_cos_h);
-    case FresnelTier::none: break;
+    case FresnelTier::schlick:
+      return fresnel_schlick(o.f0, p.one_minus_cos_h);
+    case FresnelTier::exact:
+      return fresnel_exact(o.n, o.kappa, p.cos_h, p.one_minus_cos_h);
+    case FresnelTier::none:
+      break;
   }
   return T(1.0);
 }
@@ -46,7 +49,8 @@ template <class T, class G>
     case FresnelTier::exact:
       return transmission_exact(o.n, o.kappa, p.cos_i, p.one_minus_cos_i) *
              transmission_exact(o.n, o.kappa, p.cos_r, p.one_minus_cos_r);
-    case FresnelTier::none: break;
+    case FresnelTier::none:
+      break;
   }
   return T(1.0);
 }
@@ -54,9 +58,12 @@ template <class T, class G>
 template <class T, class G>
 [[nodiscard]] T optics_factor(OpticsFactor factor, FresnelTier tier, const BasicOptics<T>& o, const BasicPair<G>& p) {
   switch (factor) {
-    case OpticsFactor::fresnel: return fresnel(tier, o, p);
-    case OpticsFactor::transmission: return transmission(tier, o, p);
-    case OpticsFactor::one: break;
+    case OpticsFactor::fresnel:
+      return fresnel(tier, o, p);
+    case OpticsFactor::transmission:
+      return transmission(tier, o, p);
+    case OpticsFactor::one:
+      break;
   }
   return T(1.0);
 }

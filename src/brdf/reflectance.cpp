@@ -43,8 +43,8 @@ AnglePair angles_of(double theta_i_deg, const Vector& v) noexcept {
   return {theta_i_deg, 0.0, degrees(std::atan2(std::hypot(v.x, v.y), v.z)), degrees(std::atan2(v.y, v.x))};
 }
 
-// dd over the slopes of the facets that mirror L into V: the lobe has the same width there at any incidence, however narrow
-// it is as a function of V. d omega_r = 4 u d omega_h and d omega_h = cos³θ_b dp dq.
+// dd over the slopes of the facets that mirror L into V: the lobe has the same width there at any incidence, however
+// narrow it is as a function of V. d omega_r = 4 u d omega_h and d omega_h = cos³θ_b dp dq.
 std::vector<double> dd_reflectance(const Evaluator& e, double theta_i_deg) {
   std::vector<double> sum(e.channels(), 0.0);
   const double scale = 2.0 * *e.material().surface.slope;

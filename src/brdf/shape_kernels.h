@@ -1,7 +1,7 @@
 #pragma once
-// The shape factors of dd and fs for a whole batch of directions: what a fit computes at each point of its search. The loop
-// is a template on the scalar, instantiated for double here and for a dual number in fit/, and vectorised by the compiler
-// with the C library's vector functions (relative error a few 1e-16; the scalar Evaluator is the reference).
+// The shape factors of dd and fs for a whole batch of directions: what a fit computes at each point of its search. The
+// loop is a template on the scalar, instantiated for double here and for a dual number in fit/, and vectorised by the
+// compiler with the C library's vector functions (relative error a few 1e-16; the scalar Evaluator is the reference).
 
 #include "effects.h"
 
@@ -33,8 +33,8 @@ void with_tiers(const ShapeSettings& s, const F& f) {
 /// The bound of math::FloorAt, in a file of its own so that the compiler does not know its value.
 extern const double exponent_floor;
 
-/// dd[i], fs[i] = shape factors at pairs[i]; either pointer may be null. Directions with a cosine <= 0 are the caller's to
-/// leave out.
+/// dd[i], fs[i] = shape factors at pairs[i]; either pointer may be null. Directions with a cosine <= 0 are the caller's
+/// to leave out.
 void shape_columns(const PairBatch& pairs, const ShapeSettings& settings, double log_slope, double* dd, double* fs);
 
 }  // namespace goniofit

@@ -10,7 +10,8 @@ __attribute__((simd("notinbranch"))) double log(double) noexcept;
 __attribute__((simd("notinbranch"))) double log1p(double) noexcept;
 }
 // One clone an instruction set, chosen when the program starts. AVX2 alone would leave FMA out, hence the levels.
-#define GONIOFIT_VECTOR_CLONES __attribute__((target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4"), flatten, noinline))
+#define GONIOFIT_VECTOR_CLONES \
+  __attribute__((target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4"), flatten, noinline))
 #else
 #define GONIOFIT_VECTOR_CLONES
 #endif

@@ -31,7 +31,11 @@ FittedParameter undetermined_length(const char* name) {
 class Assembly {
  public:
   Assembly(const Problem& problem, const Scan& scan, const Polished& best)
-      : problem_(problem), scan_(scan), best_(best), l_(linearise(problem, best.point)), u_(uncertainties(problem, best.point, l_)) {}
+      : problem_(problem),
+        scan_(scan),
+        best_(best),
+        l_(linearise(problem, best.point)),
+        u_(uncertainties(problem, best.point, l_)) {}
   [[nodiscard]] FitResult result();
 
  private:
@@ -42,8 +46,8 @@ class Assembly {
   void add_warnings();
   void warn_of_surface();
   void record(const FittedParameter& p, bool identifiable);
-  [[nodiscard]] FittedParameter row(const std::string& name, const std::string& channel, double value, double lower, double upper,
-                                    const ParameterUncertainty& u) const;
+  [[nodiscard]] FittedParameter row(const std::string& name, const std::string& channel, double value, double lower,
+                                    double upper, const ParameterUncertainty& u) const;
 
   const Problem& problem_;
   const Scan& scan_;
@@ -73,6 +77,7 @@ FitResult Assembly::result() {
 }
 
 void Assembly::add_totals() {
+  out_.weight = problem_.weighting;
   out_.samples = problem_.samples();
   out_.left_out_90 = problem_.exclusions.at_90;
   out_.left_out_max_theta = problem_.exclusions.beyond_max_theta;
@@ -80,7 +85,8 @@ void Assembly::add_totals() {
   out_.loss = l_.loss;
   const auto n = static_cast<double>(problem_.samples());
   out_.rms = std::sqrt(l_.loss / (n * static_cast<double>(problem_.channels.size())));
-  for (const Eigen::VectorXd& r : l_.residuals) out_.channel_rms.push_back(std::sqrt(r.cwiseQuotient(problem_.weight).squaredNorm() / n));
+  for (const Eigen::VectorXd& r : l_.residuals)
+    out_.channel_rms.push_back(std::sqrt(r.cwiseQuotient(problem_.weight).squaredNorm() / n));
   out_.converged = best_.converged;
   summary_.loss = out_.loss;
   summary_.rms = out_.rms;
@@ -88,8 +94,8 @@ void Assembly::add_totals() {
   summary_.converged = out_.converged;
 }
 
-FittedParameter Assembly::row(const std::string& name, const std::string& channel, double value, double lower, double upper,
-                              const ParameterUncertainty& u) const {
+FittedParameter Assembly::row(const std::string& name, const std::string& channel, double value, double lower,
+                              double upper, const ParameterUncertainty& u) const {
   FittedParameter p;
   p.name = name;
   p.channel = channel;
@@ -128,7 +134,8 @@ void Assembly::add_shape() {
       if (!std::isfinite(pa.u)) return std::numeric_limits<double>::quiet_NaN();
       for (int b = 0; b < map.free; ++b) {
         const ParameterUncertainty& pb = u_.shape[static_cast<std::size_t>(b)];
-        if (gradient[b] != 0.0 && pb.index >= 0) variance += gradient[a] * gradient[b] * u_.covariance(pa.index, pb.index);
+        if (gradient[b] != 0.0 && pb.index >= 0)
+          variance += gradient[a] * gradient[b] * u_.covariance(pa.index, pb.index);
       }
     }
     return std::sqrt(variance);
@@ -136,11 +143,13 @@ void Assembly::add_shape() {
   const auto state_of = [&](const Eigen::Vector2d& gradient) {
     ParameterState state = ParameterState::fixed;
     for (int a = 0; a < map.free; ++a) {
-      if (gradient[a] != 0.0 && state != ParameterState::undetermined) state = u_.shape[static_cast<std::size_t>(a)].state;
+      if (gradient[a] != 0.0 && state != ParameterState::undetermined)
+        state = u_.shape[static_cast<std::size_t>(a)].state;
     }
     return state;
   };
-  const auto shape_row = [&](const std::string& name, double log_value, const Eigen::Vector2d& gradient, double lower, double upper) {
+  const auto shape_row = [&](const std::string& name, double log_value, const Eigen::Vector2d& gradient, double lower,
+                             double upper) {
     const double value = std::exp(log_value);
     FittedParameter p = row(name, "", value, lower, upper, {state_of(gradient), value * log_u(gradient), -1});
     if (p.fixed) p.u.reset();
@@ -177,7 +186,10 @@ void Assembly::add_shape() {
   FittedParameter sigma = undetermined_length("sigma_um");
   FittedParameter tau = undetermined_length("tau_um");
   if (log_sigma && slope.value) {
-    const auto [low, high] = bounds(through_coh && map.free > 0 && map.map(1, map.free - 1) == 1.0 && map.map(0, map.free - 1) == 0.0 ? map.free - 1 : 2, 0.0, infinity);
+    const auto [low, high] = bounds(
+        through_coh && map.free > 0 && map.map(1, map.free - 1) == 1.0 && map.map(0, map.free - 1) == 0.0 ? map.free - 1
+                                                                                                          : 2,
+        0.0, infinity);
     sigma = shape_row("sigma_um", *log_sigma, sigma_gradient, low, high);
     tau = shape_row("tau_um", *log_sigma - log_shape[0], sigma_gradient - slope_gradient, 0.0, infinity);
     // Rounding must not make the three contradict each other in the file.
@@ -209,7 +221,8 @@ void Assembly::add_channel(std::size_t c) {
   }
   if (problem_.free_optics != FreeOptics::none) {
     const std::string name = problem_.free_optics == FreeOptics::n ? "n" : "f0";
-    const FittedParameter p = row(name, from.name, best_.point.optics[c], from.optics_lower, from.optics_upper, u_.optics[c]);
+    const FittedParameter p =
+        row(name, from.name, best_.point.optics[c], from.optics_lower, from.optics_upper, u_.optics[c]);
     // An optical parameter that no coefficient makes visible stays where the search left it: it has no effect there.
     record(p, p.value.has_value());
   }
@@ -220,8 +233,13 @@ void Assembly::add_coefficient(std::size_t c, std::size_t column) {
   const auto j = static_cast<Eigen::Index>(column);
   const ProblemChannel& channel = problem_.channels[c];
   const Coefficient coefficient = problem_.basis->columns()[column].coefficient;
-  const FittedParameter p = row(std::string(name_of(coefficient)), channel.name, best_.point.coefficients[c][j], channel.lower[j],
-                                channel.upper[j], u_.coefficients[c][column]);
+  FittedParameter p = row(std::string(name_of(coefficient)), channel.name, best_.point.coefficients[c][j],
+                          channel.lower[j], channel.upper[j], u_.coefficients[c][column]);
+  // A lobe whose width nobody can tell is no lobe whose strength anybody can.
+  if (problem_.basis->columns()[column].reads_shape && !out_.material.surface.slope && p.value != 0.0) {
+    p.value.reset();
+    p.u.reset();
+  }
   record(p, p.value.has_value());
   out_.material.channels[c].coefficient(coefficient) = p.value;
 }
@@ -230,27 +248,38 @@ void Assembly::warn_of_surface() {
   const Surface& s = out_.material.surface;
   const bool has_coh = problem_.components.has(Effect::coh);
   if (!s.slope) {
-    out_.warnings.emplace_back("slope is not determined: no directional part (dd, fs) is left in the fit; leave these out of the components, or measure near the mirror direction");
+    out_.warnings.emplace_back(
+        "slope is not determined: no directional part (dd, fs) is left in the fit; leave these out of the components, "
+        "or measure near the mirror direction");
     if (has_coh) out_.material.components.erase(Effect::coh);
     return;
   }
   if (has_coh && !s.sigma_um) {
     out_.material.components.erase(Effect::coh);
-    out_.warnings.emplace_back("coh vanishes in this scan, so sigma_um is not determined: the surface is too rough for its wavelengths to reflect coherently; fit it without coh");
+    out_.warnings.emplace_back(
+        "coh vanishes in this scan, so sigma_um is not determined: the surface is too rough for its wavelengths to "
+        "reflect coherently; fit it without coh");
   } else if (!s.sigma_um) {
-    out_.notes.emplace_back("sigma and tau enter only as slope = sigma/tau, so neither is determined alone; give a measured one (--fix sigma_um=...), or include coh");
+    out_.notes.emplace_back(
+        "sigma and tau enter only as slope = sigma/tau, so neither is determined alone; give a measured one (--fix "
+        "sigma_um=...), or include coh");
   }
   const FittedParameter& slope = out_.parameters.front();
   if (slope.at_lower || slope.at_upper) {
-    out_.warnings.push_back(std::string("slope ended on its ") + (slope.at_lower ? "lower" : "upper") +
-                            " bound: the scan does not resolve the lobe, or the model does not describe it; look at the plot");
+    out_.warnings.push_back(
+        std::string("slope ended on its ") + (slope.at_lower ? "lower" : "upper") +
+        " bound: the scan does not resolve the lobe, or the model does not describe it; look at the plot");
   } else if (slope.value && slope.u && *slope.u > 0.5 * *slope.value) {
-    out_.warnings.emplace_back("slope is weakly determined (u above half its value): the directional part is small or was hardly sampled; measure nearer to the mirror direction, or leave dd out");
+    out_.warnings.emplace_back(
+        "slope is weakly determined (u above half its value): the directional part is small or was hardly sampled; "
+        "measure nearer to the mirror direction, or leave dd out");
   }
 }
 
 void Assembly::add_warnings() {
-  if (!out_.converged) out_.warnings.emplace_back("the fit did not converge; look at the plot and at the bounds, and try fewer components");
+  if (!out_.converged)
+    out_.warnings.emplace_back(
+        "the fit did not converge; look at the plot and at the bounds, and try fewer components");
   warn_of_surface();
   std::string at_zero;
   std::string at_upper;
@@ -259,24 +288,36 @@ void Assembly::add_warnings() {
     const std::string key = p.channel + "." + p.name;
     if (p.at_lower) at_zero += (at_zero.empty() ? "" : ", ") + key;
     if (p.at_upper) at_upper += (at_upper.empty() ? "" : ", ") + key;
-    if (!p.value) out_.warnings.push_back(key + " is not determined: no reading of the scan depends on it alone; leave its component out, or fix it");
+    if (!p.value)
+      out_.warnings.push_back(
+          key + " is not determined: no reading of the scan depends on it alone; leave its component out, or fix it");
   }
-  if (!at_zero.empty()) out_.notes.push_back("on the lower bound: " + at_zero + "; the uncertainties of the others hold with these where they are");
+  if (!at_zero.empty())
+    out_.notes.push_back("on the lower bound: " + at_zero +
+                         "; the uncertainties of the others hold with these where they are");
   if (!at_upper.empty()) {
-    out_.warnings.push_back("on the upper bound: " + at_upper + "; check the scan's absolute scale and the refractive index, or widen the bound (--bound NAME=MIN:MAX)");
+    out_.warnings.push_back(
+        "on the upper bound: " + at_upper +
+        "; check the scan's absolute scale and the refractive index, or widen the bound (--bound NAME=MIN:MAX)");
   }
   const double unexplained = std::sqrt(l_.loss / std::max(problem_.total, std::numeric_limits<double>::min()));
   if (unexplained > 0.3) {
-    out_.warnings.push_back("the model leaves " + percent(unexplained) + " of the weighted signal unexplained (root mean square); look at the plot before using the parameters");
+    out_.warnings.push_back(
+        "the model leaves " + percent(unexplained) +
+        " of the weighted signal unexplained (root mean square); look at the plot before using the parameters");
   }
   if (out_.negative_values > 0) {
-    out_.notes.push_back(std::to_string(out_.negative_values) + " negative readings were kept: noise around zero, which must not be cut off");
+    out_.notes.push_back(std::to_string(out_.negative_values) +
+                         " negative readings were kept: noise around zero, which must not be cut off");
   }
-  if (problem_.components.has(Effect::fs)) {
+  if (problem_.components.has(Effect::fs) && problem_.weighting == Weight::cosine) {
     const bool weak = std::any_of(out_.parameters.begin(), out_.parameters.end(), [](const FittedParameter& p) {
       return p.name == "k_fs" && p.value && p.u && *p.u > 0.1 * *p.value;
     });
-    if (weak) out_.notes.emplace_back("k_fs is weak under the cosine-weighted loss, which gives grazing incidence little say; the loss is the limit, not the data");
+    if (weak)
+      out_.notes.emplace_back(
+          "k_fs is weak under the cosine-weighted loss, which gives grazing incidence little say; the loss is the "
+          "limit, not the data");
   }
 }
 

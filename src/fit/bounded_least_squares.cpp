@@ -15,8 +15,8 @@ struct Equations {
   SmallVector rhs, lower, upper;
 };
 
-// Solves for the free ones with the others where they are. Dependent columns (pivot below 1e-13 of the unit diagonal) keep
-// their value. Cholesky by hand, because a semidefinite matrix of order <= 8 needs only that and no allocation.
+// Solves for the free ones with the others where they are. Dependent columns (pivot below 1e-13 of the unit diagonal)
+// keep their value. Cholesky by hand, because a semidefinite matrix of order <= 8 needs only that and no allocation.
 SmallVector solve_free(const Equations& e, const States& state, const SmallVector& x) {
   const Eigen::Index n = x.size();
   SmallMatrix l = SmallMatrix::Zero(n, n);
@@ -95,7 +95,9 @@ Eigen::Index bound_to_release(const Equations& e, const SmallVector& x, const St
   double fastest = tolerance;
   for (Eigen::Index i = 0; i < x.size(); ++i) {
     if (e.lower[i] == e.upper[i]) continue;
-    const double gain = state[i] == BoundState::at_lower ? -gradient[i] : state[i] == BoundState::at_upper ? gradient[i] : 0.0;
+    const double gain = state[i] == BoundState::at_lower   ? -gradient[i]
+                        : state[i] == BoundState::at_upper ? gradient[i]
+                                                           : 0.0;
     if (gain > fastest) {
       fastest = gain;
       best = i;
@@ -128,8 +130,8 @@ BoundedSolution solve_bounded(const SmallMatrix& gram, const SmallVector& rhs, c
       s.state[i] = BoundState::at_lower;
     }
   }
-  // Each pass either adds a bound or reaches the minimum of a face and leaves it downhill; faces do not repeat. The cap is
-  // for round-off at degenerate corners, where the last x is as good as the minimum.
+  // Each pass either adds a bound or reaches the minimum of a face and leaves it downhill; faces do not repeat. The cap
+  // is for round-off at degenerate corners, where the last x is as good as the minimum.
   for (int pass = 0; pass < 64; ++pass) {
     const SmallVector y = solve_free(e, s.state, s.x);
     if (step_to_bound(e, y, s.x, s.state) >= 0) continue;

@@ -1,5 +1,6 @@
 #pragma once
-// min over lower <= x <= upper of xᵀ G x - 2 bᵀ x: the coefficients of a model at given shape, from its normal equations.
+// min over lower <= x <= upper of xᵀ G x - 2 bᵀ x: the coefficients of a model at given shape, from its normal
+// equations.
 
 #include <Eigen/Core>
 #include <cstdint>
@@ -19,9 +20,9 @@ struct BoundedSolution {
   Eigen::Array<BoundState, Eigen::Dynamic, 1, Eigen::ColMajor, max_columns, 1> state;
 };
 
-/// G symmetric positive semidefinite. Bounds may be infinite or equal. A column of zeros leaves its x at the bound nearest
-/// to 0; among columns that are dependent to 1e-13, the first keep what the others could take as well. Active-set method on the
-/// equilibrated equations; every case ends.
+/// G symmetric positive semidefinite. Bounds may be infinite or equal. A column of zeros leaves its x at the bound
+/// nearest to 0; among columns that are dependent to 1e-13, the first keep what the others could take as well.
+/// Active-set method on the equilibrated equations; every case ends.
 [[nodiscard]] BoundedSolution solve_bounded(const SmallMatrix& gram, const SmallVector& rhs, const SmallVector& lower,
                                             const SmallVector& upper);
 

@@ -53,7 +53,8 @@ void add_reflectance(FitResult& result, const Scan& scan, std::size_t most) {
   }
   if (above_one) {
     result.warnings.emplace_back(
-        "the fitted material reflects more than it receives at some incidence angles; check the scan's absolute scale, or bound the k's");
+        "the fitted material reflects more than it receives at some incidence angles; check the scan's absolute scale, "
+        "or bound the k's");
   }
 }
 

@@ -21,7 +21,7 @@ struct FittedParameter {
   std::optional<double> u;          ///< standard uncertainty; null where fixed, on a bound or undetermined
   double lower = 0.0, upper = 0.0;  ///< bounds; infinity for none
   bool fixed = false;
-  bool derived = false;             ///< computed from others (tau from slope and sigma)
+  bool derived = false;  ///< computed from others (tau from slope and sigma)
   bool at_lower = false, at_upper = false;
 };
 
@@ -32,30 +32,31 @@ struct HemisphericalReflectance {
 };
 
 struct FitResult {
-  Material material;                       ///< with its FitSummary
+  Material material;  ///< with its FitSummary
   std::vector<FittedParameter> parameters;
   std::vector<HemisphericalReflectance> reflectance;  ///< filled by add_reflectance
-  std::size_t samples = 0;                 ///< directions used (times channels = residuals)
-  std::size_t left_out_90 = 0;             ///< theta of exactly 90 degrees
-  std::size_t left_out_max_theta = 0;      ///< beyond max_theta_deg
+  Weight weight = Weight::cosine;
+  std::size_t samples = 0;             ///< directions used (times channels = residuals)
+  std::size_t left_out_90 = 0;         ///< theta of exactly 90 degrees
+  std::size_t left_out_max_theta = 0;  ///< beyond max_theta_deg
   std::size_t negative_values = 0;
   double loss = 0.0, rms = 0.0;
-  std::vector<double> channel_rms;         ///< unweighted RMS of the difference, 1/sr, per channel
-  std::size_t search_evaluations = 0;      ///< points of the global search
+  std::vector<double> channel_rms;     ///< unweighted RMS of the difference, 1/sr, per channel
+  std::size_t search_evaluations = 0;  ///< points of the global search
   std::size_t polish_iterations = 0, polish_starts = 0;
   double seconds = 0.0;
   bool converged = false;
   bool components_were_auto = false;
-  std::vector<std::string> notes;          ///< what was decided on the user's behalf ("auto: ...")
-  std::vector<std::string> warnings;       ///< what is wrong or weak, each with what to do next
+  std::vector<std::string> notes;     ///< what was decided on the user's behalf ("auto: ...")
+  std::vector<std::string> warnings;  ///< what is wrong or weak, each with what to do next
 };
 
-/// Fits `scan` (all of its channels). Deterministic. Throws Error (bad_input) where settings and scan contradict each other
-/// (unknown parameter, bounds crossed, wavelength missing for coh ...), naming the parameter.
+/// Fits `scan` (all of its channels). Deterministic. Throws Error (bad_input) where settings and scan contradict each
+/// other (unknown parameter, bounds crossed, wavelength missing for coh ...), naming the parameter.
 [[nodiscard]] FitResult fit(const Scan& scan, const FitSettings& settings);
 
-/// Fills result.reflectance at the scan's incidence angles (to 0.1 degree; at most `most` of them, evenly chosen), and warns
-/// where it passes 1. Apart from fit(), because it costs more than a fit does.
+/// Fills result.reflectance at the scan's incidence angles (to 0.1 degree; at most `most` of them, evenly chosen), and
+/// warns where it passes 1. Apart from fit(), because it costs more than a fit does.
 void add_reflectance(FitResult& result, const Scan& scan, std::size_t most = 12);
 
 /// The effects of "auto" until selection by the data exists: dd + udf where kappa > 0, else dd + uds + fs.

@@ -59,8 +59,8 @@ void Model::fill_optics(std::size_t channel, Group& group) const {
     for (Eigen::Index i = 0; i < n; ++i) {
       const Pair p = problem_.pairs[static_cast<std::size_t>(i)];
       if (fixed) {
-        group.optics(i, column) =
-            problem_.weight[i] * optics_factor(columns[j].optics, problem_.terms.fresnel, problem_.channels[channel].optics, p);
+        group.optics(i, column) = problem_.weight[i] * optics_factor(columns[j].optics, problem_.terms.fresnel,
+                                                                     problem_.channels[channel].optics, p);
       } else {
         const Dual factor = optics_factor(columns[j].optics, problem_.terms.fresnel, dual, p);
         group.optics(i, column) = problem_.weight[i] * factor.a;
@@ -90,7 +90,8 @@ void Model::set_shape(const double* z, bool derivatives) {
   const std::span<const double> shape(log_shape.data(), static_cast<std::size_t>(parameters_));
   for (Factors& f : factors_) {
     if (derivatives) {
-      problem_.basis->shape_factors(problem_.pairs, shape, f.wavelength_um, column_pointers(f.values), column_pointers(f.derivatives));
+      problem_.basis->shape_factors(problem_.pairs, shape, f.wavelength_um, column_pointers(f.values),
+                                    column_pointers(f.derivatives));
     } else {
       problem_.basis->shape_factors(problem_.pairs, shape, f.wavelength_um, column_pointers(f.values));
     }

@@ -1,6 +1,6 @@
 #pragma once
-// Residuals of a problem and their derivatives by every parameter, free or not. The one place where they are computed: the
-// polish, the uncertainties and the derivative tests all read it.
+// Residuals of a problem and their derivatives by every parameter, free or not. The one place where they are computed:
+// the polish, the uncertainties and the derivative tests all read it.
 
 #include <Eigen/Core>
 #include <cstddef>
@@ -15,8 +15,8 @@ class Model {
  public:
   explicit Model(const Problem& problem);
 
-  /// Computes the shape factors at z (problem.shape.free values), with their derivatives if asked for. What follows is at
-  /// the shape set last.
+  /// Computes the shape factors at z (problem.shape.free values), with their derivatives if asked for. What follows is
+  /// at the shape set last.
   void set_shape(const double* z, bool derivatives);
   /// Sets the free optical parameter of a channel; needed before the channel is read where the problem leaves it free.
   void set_optics(std::size_t channel, double value);
@@ -26,7 +26,9 @@ class Model {
   /// d residual / d z[i]; needs set_shape(.., true).
   void by_shape(std::size_t channel, const SmallVector& k, int i, Eigen::Ref<Eigen::VectorXd> out) const;
   /// d residual / d coefficient, a column a basis column.
-  [[nodiscard]] const Eigen::MatrixXd& by_coefficient(std::size_t channel) const noexcept { return groups_[group_[channel]].products; }
+  [[nodiscard]] const Eigen::MatrixXd& by_coefficient(std::size_t channel) const noexcept {
+    return groups_[group_[channel]].products;
+  }
   /// d residual / d (f0 or n).
   void by_optics(std::size_t channel, const SmallVector& k, Eigen::Ref<Eigen::VectorXd> out) const;
 
@@ -41,10 +43,10 @@ class Model {
   struct Group {
     std::size_t factors = 0;
     double optics_value = 0.0;
-    Eigen::MatrixXd optics;             ///< weight * optics factor, a column a basis column
-    Eigen::MatrixXd optics_derivatives; ///< by the free optical parameter; empty where fixed
-    Eigen::MatrixXd products;           ///< optics * shape factor
-    Eigen::MatrixXd shape_products;     ///< optics * derivative of the shape factor
+    Eigen::MatrixXd optics;              ///< weight * optics factor, a column a basis column
+    Eigen::MatrixXd optics_derivatives;  ///< by the free optical parameter; empty where fixed
+    Eigen::MatrixXd products;            ///< optics * shape factor
+    Eigen::MatrixXd shape_products;      ///< optics * derivative of the shape factor
   };
   std::size_t factors_for(double wavelength_um);
   void fill_optics(std::size_t channel, Group& group) const;
@@ -60,10 +62,10 @@ class Model {
 
 /// Everything about one point: what uncertainties and optimality are read from.
 struct Linearisation {
-  std::vector<Eigen::VectorXd> residuals;        ///< one a channel
-  std::vector<Eigen::MatrixXd> by_shape;         ///< samples x problem.shape.free
-  std::vector<Eigen::MatrixXd> by_coefficient;   ///< samples x columns
-  std::vector<Eigen::VectorXd> by_optics;        ///< empty where fixed
+  std::vector<Eigen::VectorXd> residuals;       ///< one a channel
+  std::vector<Eigen::MatrixXd> by_shape;        ///< samples x problem.shape.free
+  std::vector<Eigen::MatrixXd> by_coefficient;  ///< samples x columns
+  std::vector<Eigen::VectorXd> by_optics;       ///< empty where fixed
   double loss = 0.0;
 };
 [[nodiscard]] Linearisation linearise(const Problem& problem, const FitPoint& point);

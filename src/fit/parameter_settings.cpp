@@ -37,13 +37,15 @@ std::string text_of(double x) {
 
 ParameterSetting setting_of(const FitSettings& settings, const std::string& name, const std::string& channel) {
   if (!channel.empty()) {
-    if (const auto it = settings.parameters.find(channel + "." + name); it != settings.parameters.end()) return it->second;
+    if (const auto it = settings.parameters.find(channel + "." + name); it != settings.parameters.end())
+      return it->second;
   }
   const auto it = settings.parameters.find(name);
   return it == settings.parameters.end() ? ParameterSetting{} : it->second;
 }
 
-std::pair<double, double> interval_of(const ParameterSetting& setting, const std::string& name, double lower, double upper) {
+std::pair<double, double> interval_of(const ParameterSetting& setting, const std::string& name, double lower,
+                                      double upper) {
   const std::string range = "[" + text_of(lower) + ", " + text_of(upper) + "]";
   const auto check = [&](double x, const char* what) {
     if (!(x >= lower && x <= upper)) {
@@ -68,7 +70,8 @@ void check_parameter_names(const FitSettings& settings, const std::vector<std::s
     const std::size_t dot = key.rfind('.');
     const std::string name = dot == std::string::npos ? key : key.substr(dot + 1);
     if (!contains(parameter_names, name)) {
-      throw usage_error("parameter " + key + ": no such parameter, expected one of slope, sigma_um, tau_um, k_dd, k_udf, k_uds, "
+      throw usage_error("parameter " + key +
+                        ": no such parameter, expected one of slope, sigma_um, tau_um, k_dd, k_udf, k_uds, "
                         "k_fs, n, f0 or CHANNEL.name");
     }
     if (dot == std::string::npos) continue;

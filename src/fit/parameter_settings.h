@@ -15,8 +15,8 @@ namespace goniofit {
 
 /// The interval that a setting leaves of [lower, upper]; equal ends where it fixes. Throws Error (bad_input) naming the
 /// parameter when the setting lies outside or its bounds cross.
-[[nodiscard]] std::pair<double, double> interval_of(const ParameterSetting& setting, const std::string& name, double lower,
-                                                    double upper);
+[[nodiscard]] std::pair<double, double> interval_of(const ParameterSetting& setting, const std::string& name,
+                                                    double lower, double upper);
 
 /// Throws Error (bad_input) for a name that is no parameter or a channel that the scan does not have.
 void check_parameter_names(const FitSettings& settings, const std::vector<std::string>& channels);

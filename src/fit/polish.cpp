@@ -57,14 +57,18 @@ class ShapeCallback final : public ceres::EvaluationCallback {
   bool have_derivatives_ = false;
 };
 
-// All readings of one channel, compressed. A step of Ceres reads the residuals r and the Jacobian J only through |r|², Jᵀr
-// and JᵀJ, so the Cholesky factor of [J r]ᵀ[J r], a triangle of a few rows, serves as well as the thousands of rows that
-// it stands for. Ceres handles them six times as slowly (measured on 1439 x 3 readings).
+// All readings of one channel, compressed. A step of Ceres reads the residuals r and the Jacobian J only through |r|²,
+// Jᵀr and JᵀJ, so the Cholesky factor of [J r]ᵀ[J r], a triangle of a few rows, serves as well as the thousands of rows
+// that it stands for. Ceres handles them six times as slowly (measured on 1439 x 3 readings).
 class ChannelCost final : public ceres::CostFunction {
  public:
   ChannelCost(Model& model, const Problem& problem, const State& state, std::size_t channel)
-      : model_(model), free_shape_(problem.shape.free), state_(state), channel_(channel),
-        n_(static_cast<Eigen::Index>(problem.samples())), width_(free_shape_ + static_cast<Eigen::Index>(layout().size())) {
+      : model_(model),
+        free_shape_(problem.shape.free),
+        state_(state),
+        channel_(channel),
+        n_(static_cast<Eigen::Index>(problem.samples())),
+        width_(free_shape_ + static_cast<Eigen::Index>(layout().size())) {
     set_num_residuals(static_cast<int>(width_) + 1);
     if (free_shape_ > 0) mutable_parameter_block_sizes()->push_back(free_shape_);
     if (layout().size() > 0) mutable_parameter_block_sizes()->push_back(static_cast<int>(layout().size()));
@@ -74,7 +78,8 @@ class ChannelCost final : public ceres::CostFunction {
     SmallVector k = state_.point.coefficients[channel_];
     if (layout().size() > 0) {
       const double* const x = parameters[free_shape_ > 0 ? 1 : 0];
-      for (std::size_t i = 0; i < layout().columns.size(); ++i) k[static_cast<Eigen::Index>(layout().columns[i])] = x[i];
+      for (std::size_t i = 0; i < layout().columns.size(); ++i)
+        k[static_cast<Eigen::Index>(layout().columns[i])] = x[i];
       if (layout().optics) model_.set_optics(channel_, x[layout().columns.size()]);
     }
     if (!layout().optics && !state_.point.optics.empty()) model_.set_optics(channel_, state_.point.optics[channel_]);
@@ -89,7 +94,8 @@ class ChannelCost final : public ceres::CostFunction {
     const Eigen::MatrixXd triangle = compress(jacobian(k), r);
     compressed = triangle.col(width_);
     copy_columns(triangle, 0, free_shape_, free_shape_ > 0 ? jacobians[0] : nullptr);
-    copy_columns(triangle, free_shape_, width_ - free_shape_, layout().size() > 0 ? jacobians[free_shape_ > 0 ? 1 : 0] : nullptr);
+    copy_columns(triangle, free_shape_, width_ - free_shape_,
+                 layout().size() > 0 ? jacobians[free_shape_ > 0 ? 1 : 0] : nullptr);
     return true;
   }
 
@@ -100,7 +106,8 @@ class ChannelCost final : public ceres::CostFunction {
     Eigen::MatrixXd j(n_, width_);
     Eigen::Index column = 0;
     for (int z = 0; z < free_shape_; ++z) model_.by_shape(channel_, k, z, j.col(column++));
-    for (const std::size_t own : layout().columns) j.col(column++) = model_.by_coefficient(channel_).col(static_cast<Eigen::Index>(own));
+    for (const std::size_t own : layout().columns)
+      j.col(column++) = model_.by_coefficient(channel_).col(static_cast<Eigen::Index>(own));
     if (layout().optics) model_.by_optics(channel_, k, j.col(column));
     return j;
   }
@@ -177,7 +184,8 @@ bool solve(const Problem& problem, Model& model, State& state, std::size_t& iter
       add_bounds(ceres_problem, layout.x.data(), static_cast<int>(i), channel.lower[j], channel.upper[j]);
     }
     if (layout.optics) {
-      add_bounds(ceres_problem, layout.x.data(), static_cast<int>(layout.columns.size()), channel.optics_lower, channel.optics_upper);
+      add_bounds(ceres_problem, layout.x.data(), static_cast<int>(layout.columns.size()), channel.optics_lower,
+                 channel.optics_upper);
     }
     // The channels' own parameters are eliminated first: what remains couples through the shape alone.
     if (layout.size() > 0) ordering->AddElementToGroup(layout.x.data(), 0);
@@ -186,7 +194,8 @@ bool solve(const Problem& problem, Model& model, State& state, std::size_t& iter
   if (shape_is_free) {
     ordering->AddElementToGroup(state.z.data(), 1);
     for (int i = 0; i < problem.shape.free; ++i) {
-      add_bounds(ceres_problem, state.z.data(), i, problem.shape.lower[static_cast<std::size_t>(i)], problem.shape.upper[static_cast<std::size_t>(i)]);
+      add_bounds(ceres_problem, state.z.data(), i, problem.shape.lower[static_cast<std::size_t>(i)],
+                 problem.shape.upper[static_cast<std::size_t>(i)]);
     }
   }
   options.linear_solver_ordering = ordering;
@@ -196,40 +205,46 @@ bool solve(const Problem& problem, Model& model, State& state, std::size_t& iter
   return summary.termination_type == ceres::CONVERGENCE;
 }
 
-// The cosine between residuals and a parameter's column: the loss falls with the parameter where it is negative. What
-// moving the parameter alone could gain is cosine² * loss; a gain that is round-off of the data (noise-free scans end there)
-// counts as none.
-double slope_cosine(double product, double column2, double loss, double total) {
-  if (column2 <= 0.0 || product * product <= 1e-24 * total * column2) return 0.0;
-  return product / std::sqrt(column2 * loss);
+// How steeply the loss falls with one parameter, as a part of the loss: the square root of what a step could gain by
+// the linear model, with the sign of the derivative. A step is taken no longer than `reach`: where a parameter has all
+// but no effect the linear model promises the moon. A gain that is round-off of the data (noise-free scans end there)
+// is none.
+double steepness(double product, double column2, double reach, double loss, double total) {
+  if (column2 <= 0.0) return 0.0;
+  const double step = std::min(std::fabs(product) / column2, reach);
+  const double gain = step * (2.0 * std::fabs(product) - step * column2);
+  if (gain <= 1e-24 * total) return 0.0;
+  return std::copysign(std::sqrt(gain / loss), product);
 }
 
 struct Pressure {
-  double cosine;
+  double steepness;  ///< negative where the loss falls upwards
   bool at_lower, at_upper, fixed;
-  /// Whether the loss would fall by moving off the bound.
+  /// Whether the loss would fall by moving into the interval.
   [[nodiscard]] bool wants_free(double tolerance) const noexcept {
     if (fixed) return false;
-    if (at_lower) return cosine < -tolerance;
-    if (at_upper) return cosine > tolerance;
+    if (at_lower) return steepness < -tolerance;
+    if (at_upper) return steepness > tolerance;
     return true;
   }
 };
 
-Pressure coefficient_pressure(const Problem& problem, const Linearisation& l, const FitPoint& p, std::size_t c, std::size_t column) {
+Pressure coefficient_pressure(const Problem& problem, const Linearisation& l, const FitPoint& p, std::size_t c,
+                              std::size_t column) {
   const auto j = static_cast<Eigen::Index>(column);
   const ProblemChannel& channel = problem.channels[c];
   const auto& v = l.by_coefficient[c].col(j);
   const double k = p.coefficients[c][j];
-  return {slope_cosine(v.dot(l.residuals[c]), v.squaredNorm(), l.loss, problem.total), k <= channel.lower[j], k >= channel.upper[j],
-          channel.lower[j] >= channel.upper[j] || v.squaredNorm() == 0.0};
+  return {steepness(v.dot(l.residuals[c]), v.squaredNorm(), 1.0 + std::fabs(k), l.loss, problem.total),
+          k <= channel.lower[j], k >= channel.upper[j], channel.lower[j] >= channel.upper[j] || v.squaredNorm() == 0.0};
 }
 
 Pressure optics_pressure(const Problem& problem, const Linearisation& l, const FitPoint& p, std::size_t c) {
   const ProblemChannel& channel = problem.channels[c];
   const Eigen::VectorXd& v = l.by_optics[c];
-  return {slope_cosine(v.dot(l.residuals[c]), v.squaredNorm(), l.loss, problem.total), p.optics[c] <= channel.optics_lower,
-          p.optics[c] >= channel.optics_upper, channel.optics_lower >= channel.optics_upper || v.squaredNorm() == 0.0};
+  return {steepness(v.dot(l.residuals[c]), v.squaredNorm(), 1.0, l.loss, problem.total),
+          p.optics[c] <= channel.optics_lower, p.optics[c] >= channel.optics_upper,
+          channel.optics_lower >= channel.optics_upper || v.squaredNorm() == 0.0};
 }
 
 constexpr double release_tolerance = 1e-7;
@@ -253,11 +268,11 @@ State layout_for(const Problem& problem, const FitPoint& point, const Linearisat
   return state;
 }
 
-// The largest cosine of a parameter that could still move downhill.
+// The steepest of the parameters that could still move downhill.
 double optimality_of(const Problem& problem, const FitPoint& point, const Linearisation& l) {
   double worst = 0.0;
   const auto look = [&worst](const Pressure& p) {
-    if (p.wants_free(0.0)) worst = std::max(worst, std::fabs(p.cosine));
+    if (p.wants_free(0.0)) worst = std::max(worst, std::fabs(p.steepness));
   };
   for (int z = 0; z < problem.shape.free; ++z) {
     double product = 0.0;
@@ -267,11 +282,12 @@ double optimality_of(const Problem& problem, const FitPoint& point, const Linear
       column2 += l.by_shape[c].col(z).squaredNorm();
     }
     const auto i = static_cast<std::size_t>(z);
-    look({slope_cosine(product, column2, l.loss, problem.total), point.z[i] <= problem.shape.lower[i],
+    look({steepness(product, column2, 1.0, l.loss, problem.total), point.z[i] <= problem.shape.lower[i],
           point.z[i] >= problem.shape.upper[i], false});
   }
   for (std::size_t c = 0; c < problem.channels.size(); ++c) {
-    for (std::size_t j = 0; j < problem.basis->columns().size(); ++j) look(coefficient_pressure(problem, l, point, c, j));
+    for (std::size_t j = 0; j < problem.basis->columns().size(); ++j)
+      look(coefficient_pressure(problem, l, point, c, j));
     if (!point.optics.empty()) look(optics_pressure(problem, l, point, c));
   }
   return worst;

@@ -1,6 +1,6 @@
 #pragma once
-// The polish: all parameters jointly by Ceres, from one start. Alone it ends in the minimum nearest to its start, which for
-// narrow lobes is seldom the right one; fit() starts it from what search() found.
+// The polish: all parameters jointly by Ceres, from one start. Alone it ends in the minimum nearest to its start, which
+// for narrow lobes is seldom the right one; fit() starts it from what search() found.
 
 #include <cstddef>
 
@@ -15,8 +15,9 @@ namespace goniofit {
 struct Polished {
   FitPoint point;
   std::size_t iterations = 0;
-  bool converged = false;      ///< Ceres converged and the result satisfies the conditions of a bounded minimum
-  double optimality = 0.0;     ///< largest cosine between the residuals and a free parameter's column; 0 at a minimum
+  bool converged = false;  ///< Ceres converged and the result satisfies the conditions of a bounded minimum
+  double optimality =
+      0.0;  ///< square root of the part of the loss that one parameter's step could still gain; 0 at a minimum
 };
 
 [[nodiscard]] Polished polish(const Problem& problem, const FitPoint& start);

@@ -21,8 +21,8 @@ std::optional<double> per_channel(const std::vector<double>& values, std::size_t
   if (values.empty()) return std::nullopt;
   if (values.size() == 1) return values.front();
   if (values.size() != channels) {
-    throw usage_error(std::string(name) + ": " + std::to_string(values.size()) + " values given, expected one or one for each of the " +
-                      std::to_string(channels) + " channels");
+    throw usage_error(std::string(name) + ": " + std::to_string(values.size()) +
+                      " values given, expected one or one for each of the " + std::to_string(channels) + " channels");
   }
   return values[channel];
 }
@@ -48,7 +48,8 @@ Problem::Problem(const Scan& scan, const FitSettings& settings)
     : terms(settings.terms),
       fs_form(settings.fs_form),
       solid_angle_sr(settings.solid_angle_sr.value_or(scan.solid_angle_sr.value_or(default_solid_angle_sr))),
-      free_optics(settings.free_optics) {
+      free_optics(settings.free_optics),
+      weighting(settings.weight) {
   std::vector<std::string> names;
   for (const ScanChannel& c : scan.channels) names.push_back(c.name);
   check_parameter_names(settings, names);
@@ -59,7 +60,7 @@ Problem::Problem(const Scan& scan, const FitSettings& settings)
   basis = std::make_unique<SurfaceBasis>(components, ShapeSettings::of(terms, fs_form), solid_angle_sr);
   choose_shape(settings);
   choose_coefficients(settings);
-  fill_targets(scan, settings);
+  fill_targets(scan);
 }
 
 void Problem::choose_rows(const Scan& scan, const FitSettings& settings) {
@@ -77,8 +78,9 @@ void Problem::choose_rows(const Scan& scan, const FitSettings& settings) {
     }
   }
   if (rows.empty()) {
-    throw usage_error(scan.source + ": no reading is left to fit: " + std::to_string(exclusions.at_90) + " at 90 degrees, " +
-                      std::to_string(exclusions.beyond_max_theta) + " beyond the largest theta asked for");
+    throw usage_error(scan.source + ": no reading is left to fit: " + std::to_string(exclusions.at_90) +
+                      " at 90 degrees, " + std::to_string(exclusions.beyond_max_theta) +
+                      " beyond the largest theta asked for");
   }
 }
 
@@ -94,7 +96,8 @@ void Problem::choose_optics(const Scan& scan, const FitSettings& settings) {
     const std::optional<double> n = per_channel(settings.n, c, count, "n");
     const std::optional<double> kappa = per_channel(settings.kappa, c, count, "kappa");
     if (f0) {
-      if (terms.fresnel == FresnelTier::exact) throw usage_error("f0: the exact Fresnel term needs n and kappa, expected --n or --fresnel schlick");
+      if (terms.fresnel == FresnelTier::exact)
+        throw usage_error("f0: the exact Fresnel term needs n and kappa, expected --n or --fresnel schlick");
       if (n || kappa) throw usage_error("f0: given beside n or kappa, expected either f0 or n and kappa");
       check_range(*f0, 0.0, 1.0, "f0");
       to.optics = ChannelOptics::of_reflectance(*f0);
@@ -106,16 +109,16 @@ void Problem::choose_optics(const Scan& scan, const FitSettings& settings) {
       check_range(*to.kappa, 0.0, n_max, "kappa");
       to.optics = ChannelOptics::of_index(*to.n, *to.kappa);
     }
-    const auto twin = std::find_if(channels.begin(), channels.end() - 1, [&](const ProblemChannel& other) {
-      return same(other.optics, to.optics);
-    });
+    const auto twin = std::find_if(channels.begin(), channels.end() - 1,
+                                   [&](const ProblemChannel& other) { return same(other.optics, to.optics); });
     to.optics_group = twin == channels.end() - 1 ? optics_groups++ : twin->optics_group;
     if (free_optics == FreeOptics::f0) {
-      if (terms.fresnel != FresnelTier::schlick) throw usage_error("f0: it can be fitted with the schlick Fresnel term only, expected --free n");
+      if (terms.fresnel != FresnelTier::schlick)
+        throw usage_error("f0: it can be fitted with the schlick Fresnel term only, expected --free n");
       std::tie(to.optics_lower, to.optics_upper) = interval_of(setting_of(settings, "f0", to.name), "f0", 0.0, 1.0);
     } else if (free_optics == FreeOptics::n) {
-      // Schlick's term knows n through f0 alone, which takes each value on two branches; the upper one is meant. A dielectric
-      // under 1 would be the other side of the interface.
+      // Schlick's term knows n through f0 alone, which takes each value on two branches; the upper one is meant. A
+      // dielectric under 1 would be the other side of the interface.
       const double k = to.optics.kappa;
       const double branch = terms.fresnel == FresnelTier::schlick || k == 0.0 ? std::sqrt(1.0 + k * k) : 0.05;
       const double top = std::max(10.0, 4.0 * branch);
@@ -123,7 +126,9 @@ void Problem::choose_optics(const Scan& scan, const FitSettings& settings) {
     }
   }
   if (assumed && free_optics == FreeOptics::none && terms.fresnel != FresnelTier::none) {
-    notes.emplace_back("n = 1.5 was assumed, since neither the scan nor a recipe nor --n gives one; k_dd stands in for what it gets wrong");
+    notes.emplace_back(
+        "n = 1.5 was assumed, since neither the scan nor a recipe nor --n gives one; k_dd stands in for what it gets "
+        "wrong");
   }
 }
 
@@ -132,16 +137,21 @@ void Problem::choose_components(const Scan& scan, const FitSettings& settings) {
     components = *settings.components;
     if (components.empty()) throw usage_error("components: none given, expected some of coh, dd, udf, uds, fs");
   } else {
-    const bool metal = std::any_of(channels.begin(), channels.end(), [](const ProblemChannel& c) { return c.optics.kappa > 0.0; });
+    const bool metal =
+        std::any_of(channels.begin(), channels.end(), [](const ProblemChannel& c) { return c.optics.kappa > 0.0; });
     components = automatic_components(metal);
     components_were_auto = true;
-    notes.emplace_back(metal ? "components auto: dd, udf, because kappa > 0 (a metal lets no light below its surface); selection by the data is not made yet"
-                             : "components auto: dd, uds, fs, because kappa = 0 (a dielectric); selection by the data is not made yet");
+    notes.emplace_back(
+        metal
+            ? "components auto: dd, udf, because kappa > 0 (a metal lets no light below its surface); selection by the "
+              "data is not made yet"
+            : "components auto: dd, uds, fs, because kappa = 0 (a dielectric); selection by the data is not made yet");
   }
   if (!components.has(Effect::coh)) return;
   for (const ProblemChannel& c : channels) {
     if (!c.wavelength_um) {
-      throw usage_error(scan.source + ": coh needs the wavelength of channel " + c.name + ", expected `# wavelength_um: ...` in the scan or a channel named like 550nm");
+      throw usage_error(scan.source + ": coh needs the wavelength of channel " + c.name +
+                        ", expected `# wavelength_um: ...` in the scan or a channel named like 550nm");
     }
   }
   for (std::size_t i = 0; i < pairs.size(); ++i) {
@@ -149,7 +159,9 @@ void Problem::choose_components(const Scan& scan, const FitSettings& settings) {
   }
   components.erase(Effect::coh);
   components.insert(Effect::dd);
-  warnings.emplace_back("coh was left out: no reading lies within the mirror cone of the solid angle given; measure the mirror direction itself");
+  warnings.emplace_back(
+      "coh was left out: no reading lies within the mirror cone of the solid angle given; measure the mirror direction "
+      "itself");
 }
 
 void Problem::choose_shape(const FitSettings& settings) {
@@ -165,16 +177,20 @@ void Problem::choose_shape(const FitSettings& settings) {
   if (known_sigma_um && known_tau_um) {
     const double slope = *known_sigma_um / *known_tau_um;
     if (slope_given && std::fabs(slope_low / slope - 1.0) > 1e-6) {
-      throw usage_error("parameter slope: fixed to another value than sigma_um / tau_um, expected one of the three to be left out");
+      throw usage_error(
+          "parameter slope: fixed to another value than sigma_um / tau_um, expected one of the three to be left out");
     }
     check_range(slope, slope_min, slope_max, "sigma_um / tau_um");
     slope_low = slope_high = slope;
   }
   const bool has_sigma = basis->shape_parameters().size() > 1;
   if (!has_sigma && (sigma.min || sigma.max || tau.min || tau.max)) {
-    throw usage_error("parameter sigma_um or tau_um: bounds have no meaning without coh, which alone tells them from their quotient; expected bounds of slope, or a fixed value");
+    throw usage_error(
+        "parameter sigma_um or tau_um: bounds have no meaning without coh, which alone tells them from their quotient; "
+        "expected bounds of slope, or a fixed value");
   }
-  if (has_sigma && (tau.min || tau.max)) throw usage_error("parameter tau_um: cannot be bounded, expected bounds of slope and sigma_um");
+  if (has_sigma && (tau.min || tau.max))
+    throw usage_error("parameter tau_um: cannot be bounded, expected bounds of slope and sigma_um");
 
   const auto add_free = [this](int row, double low, double high) {
     shape.map(row, shape.free++) = 1.0;
@@ -190,7 +206,8 @@ void Problem::choose_shape(const FitSettings& settings) {
     shape.offset[0] = std::log(slope_low);
   }
   if (!has_sigma) return;
-  const auto [sigma_low, sigma_high] = known_sigma_um ? std::pair(*known_sigma_um, *known_sigma_um) : interval("sigma_um", sigma_um_min, sigma_um_max);
+  const auto [sigma_low, sigma_high] =
+      known_sigma_um ? std::pair(*known_sigma_um, *known_sigma_um) : interval("sigma_um", sigma_um_min, sigma_um_max);
   if (known_tau_um && !known_sigma_um) {  // sigma = tau * slope
     shape.offset[1] = std::log(*known_tau_um) + shape.offset[0];
     if (shape.outer_moves_slope) shape.map(1, 0) = 1.0;
@@ -206,7 +223,8 @@ void Problem::choose_coefficients(const FitSettings& settings) {
   const std::vector<BasisColumn>& columns = basis->columns();
   for (const Coefficient c : all_coefficients) {
     const std::string name(name_of(c));
-    const bool used = std::any_of(columns.begin(), columns.end(), [c](const BasisColumn& b) { return b.coefficient == c; });
+    const bool used =
+        std::any_of(columns.begin(), columns.end(), [c](const BasisColumn& b) { return b.coefficient == c; });
     if (!used && settings.parameters.contains(name)) {
       notes.push_back("the setting of " + name + " has no effect: no component of the model reads it");
     }
@@ -228,11 +246,11 @@ void Problem::choose_coefficients(const FitSettings& settings) {
   }
 }
 
-void Problem::fill_targets(const Scan& scan, const FitSettings& settings) {
+void Problem::fill_targets(const Scan& scan) {
   const auto n = static_cast<Eigen::Index>(rows.size());
   weight.resize(n);
   for (Eigen::Index i = 0; i < n; ++i) {
-    weight[i] = settings.weight == Weight::cosine ? std::sqrt(pairs.cos_i[static_cast<std::size_t>(i)]) : 1.0;
+    weight[i] = weighting == Weight::cosine ? std::sqrt(pairs.cos_i[static_cast<std::size_t>(i)]) : 1.0;
   }
   for (std::size_t c = 0; c < channels.size(); ++c) {
     Eigen::VectorXd& target = channels[c].target;

@@ -1,5 +1,6 @@
 #pragma once
-// A scan and settings made ready for fitting: which readings, which weights, which parameters are free within which bounds.
+// A scan and settings made ready for fitting: which readings, which weights, which parameters are free within which
+// bounds.
 
 #include <Eigen/Core>
 #include <cstddef>
@@ -18,7 +19,7 @@ namespace goniofit {
 
 /// Readings left out, and why.
 struct Exclusions {
-  std::size_t at_90 = 0;            ///< theta of exactly 90 degrees
+  std::size_t at_90 = 0;  ///< theta of exactly 90 degrees
   std::size_t beyond_max_theta = 0;
   std::size_t negative_values = 0;  ///< kept; counted over the readings used
 };
@@ -27,10 +28,10 @@ struct Exclusions {
 struct ShapeMap {
   Eigen::Vector2d offset = Eigen::Vector2d::Zero();
   Eigen::Matrix2d map = Eigen::Matrix2d::Zero();
-  int free = 0;                     ///< length of z, 0 to 2
-  std::vector<double> lower, upper; ///< bounds of z
+  int free = 0;                                  ///< length of z, 0 to 2
+  std::vector<double> lower, upper;              ///< bounds of z
   std::vector<double> lower_value, upper_value;  ///< the same of the parameters themselves, as they were given
-  bool outer_moves_slope = false;   ///< z[0] moves the slope (else, with free = 1, only sigma)
+  bool outer_moves_slope = false;                ///< z[0] moves the slope (else, with free = 1, only sigma)
 
   [[nodiscard]] Eigen::Vector2d log_shape(const double* z) const;
 };
@@ -38,12 +39,12 @@ struct ShapeMap {
 struct ProblemChannel {
   std::string name;
   std::optional<double> wavelength_um;
-  ChannelOptics optics{};           ///< where fixed; the start where free
-  std::optional<double> n, kappa;   ///< as given; empty where f0 was
-  Eigen::VectorXd target;           ///< weight * value, one a reading used
-  SmallVector lower, upper;         ///< bounds of the coefficients, by column; equal where fixed
+  ChannelOptics optics{};                         ///< where fixed; the start where free
+  std::optional<double> n, kappa;                 ///< as given; empty where f0 was
+  Eigen::VectorXd target;                         ///< weight * value, one a reading used
+  SmallVector lower, upper;                       ///< bounds of the coefficients, by column; equal where fixed
   double optics_lower = 0.0, optics_upper = 0.0;  ///< of the free optical parameter
-  std::size_t optics_group = 0;     ///< channels of equal optics share their columns
+  std::size_t optics_group = 0;                   ///< channels of equal optics share their columns
 };
 
 class Problem {
@@ -52,7 +53,9 @@ class Problem {
   Problem(const Scan& scan, const FitSettings& settings);
 
   [[nodiscard]] std::size_t samples() const noexcept { return pairs.size(); }
-  [[nodiscard]] double wavelength(std::size_t channel) const noexcept { return channels[channel].wavelength_um.value_or(1.0); }
+  [[nodiscard]] double wavelength(std::size_t channel) const noexcept {
+    return channels[channel].wavelength_um.value_or(1.0);
+  }
   /// Optics with the free parameter at `value`; T is double or a dual number.
   template <class T>
   [[nodiscard]] BasicOptics<T> optics_at(std::size_t channel, const T& value) const {
@@ -65,6 +68,7 @@ class Problem {
   FsForm fs_form;
   double solid_angle_sr;
   FreeOptics free_optics;
+  Weight weighting;
   std::unique_ptr<SurfaceBasis> basis;
   ShapeMap shape;
   std::optional<double> known_sigma_um, known_tau_um;  ///< fixed by the user
@@ -74,7 +78,7 @@ class Problem {
   Eigen::VectorXd weight;         ///< square root of each reading's weight in the loss
   std::vector<ProblemChannel> channels;
   std::size_t optics_groups = 0;
-  double total = 0.0;             ///< loss of a model that is zero
+  double total = 0.0;  ///< loss of a model that is zero
 
   Exclusions exclusions;
   bool components_were_auto = false;
@@ -86,7 +90,7 @@ class Problem {
   void choose_components(const Scan& scan, const FitSettings& settings);
   void choose_shape(const FitSettings& settings);
   void choose_coefficients(const FitSettings& settings);
-  void fill_targets(const Scan& scan, const FitSettings& settings);
+  void fill_targets(const Scan& scan);
 };
 
 }  // namespace goniofit

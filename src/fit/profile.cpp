@@ -39,7 +39,8 @@ void select_rows(const Eigen::VectorXd& from, const std::vector<std::size_t>& ro
 }
 
 // gram and rhs += those of the columns of `a` against the targets.
-void accumulate(const Eigen::MatrixXd& a, const Eigen::VectorXd& target, SmallMatrix* gram, Eigen::Ref<Eigen::VectorXd> rhs) {
+void accumulate(const Eigen::MatrixXd& a, const Eigen::VectorXd& target, SmallMatrix* gram,
+                Eigen::Ref<Eigen::VectorXd> rhs) {
   const auto n = static_cast<std::size_t>(a.rows());
   for (Eigen::Index j = 0; j < a.cols(); ++j) {
     rhs[j] += dot(a.col(j).data(), target.data(), n);
@@ -117,7 +118,8 @@ void Profile::update_early(const Eigen::Vector2d& log_shape) {
   if (log_shape[0] == early_log_slope_) return;
   early_log_slope_ = log_shape[0];
   const std::vector<double*> pointers = column_pointers(early_shape_);
-  problem_.basis->shape_factors(early_, std::span(log_shape.data(), problem_.basis->shape_parameters().size()), 1.0, pointers);
+  problem_.basis->shape_factors(early_, std::span(log_shape.data(), problem_.basis->shape_parameters().size()), 1.0,
+                                pointers);
   const auto n = static_cast<std::size_t>(early_weight_.size());
   const auto columns = static_cast<Eigen::Index>(columns_);
   for (Group& group : groups_) {

@@ -23,10 +23,10 @@ class Profile {
  private:
   /// A value of the optics that a group of channels may take; one where they are fixed.
   struct Candidate {
-    double value = 0.0;               ///< of the free optical parameter
-    Eigen::MatrixXd early, late;      ///< weight * optics factor, a column a basis column
-    SmallMatrix gram;                 ///< of the early rows
-    Eigen::MatrixXd rhs;              ///< column a channel of the group
+    double value = 0.0;           ///< of the free optical parameter
+    Eigen::MatrixXd early, late;  ///< weight * optics factor, a column a basis column
+    SmallMatrix gram;             ///< of the early rows
+    Eigen::MatrixXd rhs;          ///< column a channel of the group
   };
   struct Group {
     std::vector<std::size_t> channels;

@@ -11,15 +11,26 @@ namespace goniofit {
 
 namespace {
 
-// Steps of the logarithm. A lobe's width enters as a Gaussian of 1/slope: its dip in the profile is as wide as that, some
-// tenths, however narrow the lobe. sigma enters coh through exp(-g), g ~ sigma², which is smoother.
+// Steps of the logarithm. A lobe's width enters as a Gaussian of 1/slope: its dip in the profile is as wide as that,
+// some tenths, however narrow the lobe. Beyond a slope of a half the lobe fills the hemisphere and changes little.
+// sigma enters coh through exp(-g), g ~ sigma², which is smoother.
 constexpr double slope_step = 0.17;
 constexpr double sigma_step = 0.25;
+const double rough = std::log(0.5);
+constexpr double rough_step = 0.34;
 
 std::vector<double> grid(double lower, double upper, double step) {
   const int intervals = std::max(1, static_cast<int>(std::ceil((upper - lower) / step)));
   std::vector<double> points;
   for (int i = 0; i <= intervals; ++i) points.push_back(lower + (upper - lower) * i / intervals);
+  return points;
+}
+
+std::vector<double> slope_grid(double lower, double upper) {
+  if (lower >= rough || upper <= rough) return grid(lower, upper, lower >= rough ? rough_step : slope_step);
+  std::vector<double> points = grid(lower, rough, slope_step);
+  const std::vector<double> beyond = grid(rough, upper, rough_step);
+  points.insert(points.end(), beyond.begin() + 1, beyond.end());
   return points;
 }
 
@@ -42,7 +53,8 @@ std::vector<Cell> local_minima(const std::vector<double>& outer, const std::vect
         for (std::ptrdiff_t dj = -1; dj <= 1; ++dj) {
           const bool inside = i + di >= 0 && i + di < rows && j + dj >= 0 && j + dj < columns;
           // Of a plateau, the first point speaks.
-          if (inside && (at(i + di, j + dj) < at(i, j) || ((di < 0 || (di == 0 && dj < 0)) && at(i + di, j + dj) == at(i, j)))) {
+          if (inside &&
+              (at(i + di, j + dj) < at(i, j) || ((di < 0 || (di == 0 && dj < 0)) && at(i + di, j + dj) == at(i, j)))) {
             lowest = false;
           }
         }
@@ -57,6 +69,11 @@ std::vector<Cell> local_minima(const std::vector<double>& outer, const std::vect
   return cells;
 }
 
+double step_at(const ShapeMap& shape, std::size_t axis, double z) {
+  if (axis > 0 || !shape.outer_moves_slope) return sigma_step;
+  return z < rough ? slope_step : rough_step;
+}
+
 // Brent's method along one coordinate, within a step of the grid point on both sides.
 void refine_along(Profile& profile, const ShapeMap& shape, std::size_t axis, double step, std::vector<double>& z) {
   const double low = std::max(shape.lower[axis], z[axis] - step);
@@ -66,7 +83,7 @@ void refine_along(Profile& profile, const ShapeMap& shape, std::size_t axis, dou
     trial[axis] = x;
     return profile.loss(trial.data());
   };
-  std::uintmax_t most = 16;
+  std::uintmax_t most = 8;  // the polish does the rest
   const auto [x, loss] = boost::math::tools::brent_find_minima(along, low, high, 10, most);
   if (loss < profile.loss(z.data())) z[axis] = x;
 }
@@ -82,9 +99,10 @@ SearchOutcome search(const Problem& problem, std::size_t most) {
     outcome.evaluations = profile.evaluations();
     return outcome;
   }
-  const std::vector<double> steps{shape.outer_moves_slope ? slope_step : sigma_step, sigma_step};
-  const std::vector<double> outer = grid(shape.lower[0], shape.upper[0], steps[0]);
-  const std::vector<double> inner = shape.free > 1 ? grid(shape.lower[1], shape.upper[1], steps[1]) : std::vector<double>{};
+  const std::vector<double> outer = shape.outer_moves_slope ? slope_grid(shape.lower[0], shape.upper[0])
+                                                            : grid(shape.lower[0], shape.upper[0], sigma_step);
+  const std::vector<double> inner =
+      shape.free > 1 ? grid(shape.lower[1], shape.upper[1], sigma_step) : std::vector<double>{};
   std::vector<double> losses;
   for (const double a : outer) {
     if (inner.empty()) losses.push_back(profile.loss(&a));
@@ -98,7 +116,8 @@ SearchOutcome search(const Problem& problem, std::size_t most) {
   cells.resize(std::min(cells.size(), most + 2));
   for (Cell& cell : cells) {
     for (int sweep = 0; sweep < shape.free; ++sweep) {
-      for (std::size_t axis = 0; axis < cell.z.size(); ++axis) refine_along(profile, shape, axis, steps[axis], cell.z);
+      for (std::size_t axis = 0; axis < cell.z.size(); ++axis)
+        refine_along(profile, shape, axis, step_at(shape, axis, cell.z[axis]), cell.z);
     }
     outcome.minima.push_back(profile.point(cell.z.data()));
   }

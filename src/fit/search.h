@@ -1,6 +1,7 @@
 #pragma once
-// The global search: at each point of a grid of the one or two shape parameters the coefficients are solved within their
-// bounds, which leaves a profile of the loss over the shape alone. Its local minima are refined and handed to the polish.
+// The global search: at each point of a grid of the one or two shape parameters the coefficients are solved within
+// their bounds, which leaves a profile of the loss over the shape alone. Its local minima are refined and handed to the
+// polish.
 
 #include <cstddef>
 #include <vector>
@@ -23,7 +24,8 @@ struct SearchOutcome {
   std::size_t evaluations = 0;   ///< points of the profile
 };
 
-/// Deterministic. `most` limits the minima returned; only such as come within 5 % of the best loss (plus round-off) are.
+/// Deterministic. `most` limits the minima returned; only such as come within 5 % of the best loss (plus round-off)
+/// are.
 [[nodiscard]] SearchOutcome search(const Problem& problem, std::size_t most = 3);
 
 /// The coefficients (and optics) that are best at the given shape.

@@ -28,7 +28,7 @@ struct FitSettings {
   Terms terms;
   FsForm fs_form = FsForm::printed;
   Weight weight = Weight::cosine;
-  std::vector<double> n, kappa, f0;     ///< none (scan's metadata, else n = 1.5, kappa = 0), one, or one a channel
+  std::vector<double> n, kappa, f0;  ///< none (scan's metadata, else n = 1.5, kappa = 0), one, or one a channel
   FreeOptics free_optics = FreeOptics::none;
   /// By name: slope, sigma_um, tau_um, k_dd, k_udf, k_uds, k_fs, n, f0 for every channel, or "CHANNEL.name" for one.
   std::map<std::string, ParameterSetting> parameters;
@@ -54,15 +54,15 @@ struct VerifySettings {
   Noise noise{0.02, 0.0};
   Sampling sampling = Sampling::hemisphere;
   std::size_t trials = 200;
-  double slope_bias = 0.01;                                ///< largest relative bias of the slope that passes
-  std::optional<std::pair<double, double>> coverage_95;    ///< smallest and largest coverage that passes
+  double slope_bias = 0.01;                              ///< largest relative bias of the slope that passes
+  std::optional<std::pair<double, double>> coverage_95;  ///< smallest and largest coverage that passes
 };
 
 struct Recipe {
-  std::filesystem::path source;               ///< the recipe itself
-  std::string name;                           ///< of the material; empty: the scan's
-  std::vector<std::filesystem::path> scans;   ///< may be empty: the command line gives them
-  std::vector<std::string> channels;          ///< empty: all
+  std::filesystem::path source;              ///< the recipe itself
+  std::string name;                          ///< of the material; empty: the scan's
+  std::vector<std::filesystem::path> scans;  ///< may be empty: the command line gives them
+  std::vector<std::string> channels;         ///< empty: all
   /// A table that n and kappa are taken from at the channels' wavelengths; settings has no n, kappa and f0 then.
   std::optional<std::filesystem::path> optical_constants;
   FitSettings settings;

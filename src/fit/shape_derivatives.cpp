@@ -28,7 +28,8 @@ GONIOFIT_VECTOR_CLONES void columns(const PairBatch& pairs, double log_slope, do
 }
 
 template <ShadowingTier shadowing, EffectiveRoughnessTier roughness>
-void choose(const PairBatch& pairs, FsForm form, double log_slope, double floor, const DualSink& dd, const DualSink& fs) {
+void choose(const PairBatch& pairs, FsForm form, double log_slope, double floor, const DualSink& dd,
+            const DualSink& fs) {
   using enum FsForm;
   if (fs.values == nullptr) return columns<shadowing, roughness, printed, Want::dd>(pairs, log_slope, floor, dd, fs);
   if (dd.values == nullptr) {

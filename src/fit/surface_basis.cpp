@@ -80,7 +80,8 @@ void SurfaceBasis::shape_factors(const PairBatch& pairs, std::span<const double>
     }
   }
   const bool has_dd = components_.has(Effect::dd);
-  shape_columns_with_derivatives(pairs, settings_, log_shape[0], has_dd ? dd : nullptr, has_dd ? d_dd : nullptr, fs, d_fs);
+  shape_columns_with_derivatives(pairs, settings_, log_shape[0], has_dd ? dd : nullptr, has_dd ? d_dd : nullptr, fs,
+                                 d_fs);
   if (!components_.has(Effect::coh)) return;
   if (!has_dd) {
     std::fill_n(dd, n, 0.0);

@@ -11,12 +11,13 @@ namespace {
 
 constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 
-ParameterState state_at(double value, double lower, double upper, double column2) {
+// `column2`: what a unit step of the parameter changes, squared and summed. No more than `noise2` is no effect at all.
+ParameterState state_at(double value, double lower, double upper, double column2, double noise2) {
   const auto near = [value](double bound) {
     return std::isfinite(bound) && std::fabs(value - bound) <= 1e-12 * (1.0 + std::fabs(bound));
   };
   if (lower >= upper) return ParameterState::fixed;
-  if (column2 == 0.0) return ParameterState::undetermined;
+  if (column2 <= noise2) return ParameterState::undetermined;
   if (near(lower)) return ParameterState::at_lower;
   if (near(upper)) return ParameterState::at_upper;
   return ParameterState::free;
@@ -42,11 +43,14 @@ class Layout {
 };
 
 Layout::Layout(const Problem& problem, const FitPoint& point, const Linearisation& l, Uncertainties& out) {
+  // A change of the shape by a factor e that alters the whole scan by less than the residual of one reading: nobody
+  // could tell it from no change.
+  const double noise2 = l.loss / static_cast<double>(problem.samples() * problem.channels.size());
   for (std::size_t z = 0; z < point.z.size(); ++z) {
     double column2 = 0.0;
     for (const Eigen::MatrixXd& shape : l.by_shape) column2 += shape.col(static_cast<Eigen::Index>(z)).squaredNorm();
-    place(out.shape.emplace_back(
-        ParameterUncertainty{state_at(point.z[z], problem.shape.lower[z], problem.shape.upper[z], column2), no_value, -1}));
+    place(out.shape.emplace_back(ParameterUncertainty{
+        state_at(point.z[z], problem.shape.lower[z], problem.shape.upper[z], column2, noise2), no_value, -1}));
   }
   for (std::size_t c = 0; c < problem.channels.size(); ++c) {
     const ProblemChannel& channel = problem.channels[c];
@@ -54,11 +58,12 @@ Layout::Layout(const Problem& problem, const FitPoint& point, const Linearisatio
     for (Eigen::Index j = 0; j < channel.lower.size(); ++j) {
       const double column2 = l.by_coefficient[c].col(j).squaredNorm();
       place(row.emplace_back(ParameterUncertainty{
-          state_at(point.coefficients[c][j], channel.lower[j], channel.upper[j], column2), no_value, -1}));
+          state_at(point.coefficients[c][j], channel.lower[j], channel.upper[j], column2, 0.0), no_value, -1}));
     }
     if (!point.optics.empty()) {
       place(out.optics.emplace_back(ParameterUncertainty{
-          state_at(point.optics[c], channel.optics_lower, channel.optics_upper, l.by_optics[c].squaredNorm()), no_value, -1}));
+          state_at(point.optics[c], channel.optics_lower, channel.optics_upper, l.by_optics[c].squaredNorm(), 0.0),
+          no_value, -1}));
     }
   }
 }
@@ -121,7 +126,8 @@ bool invert(const Eigen::MatrixXd& normal, Eigen::MatrixXd& inverse, Eigen::Matr
   equilibrated = scale.asDiagonal() * normal * scale.asDiagonal();
   const Eigen::LDLT<Eigen::MatrixXd> ldlt(equilibrated);
   if (ldlt.info() != Eigen::Success || ldlt.vectorD().minCoeff() <= 1e-12) return false;
-  inverse = scale.asDiagonal() * ldlt.solve(Eigen::MatrixXd::Identity(normal.rows(), normal.cols())) * scale.asDiagonal();
+  inverse =
+      scale.asDiagonal() * ldlt.solve(Eigen::MatrixXd::Identity(normal.rows(), normal.cols())) * scale.asDiagonal();
   return true;
 }
 
@@ -159,7 +165,8 @@ Uncertainties uncertainties(const Problem& problem, const FitPoint& point, const
     const auto width = static_cast<Eigen::Index>(b.index.size());
     Eigen::MatrixXd own(width, width);
     for (Eigen::Index i = 0; i < width; ++i) {
-      for (Eigen::Index j = 0; j < width; ++j) own(i, j) = bread(b.index[static_cast<std::size_t>(i)], b.index[static_cast<std::size_t>(j)]);
+      for (Eigen::Index j = 0; j < width; ++j)
+        own(i, j) = bread(b.index[static_cast<std::size_t>(i)], b.index[static_cast<std::size_t>(j)]);
     }
     const Eigen::VectorXd leverage = (b.jacobian * own).cwiseProduct(b.jacobian).rowwise().sum();
     Eigen::VectorXd e2(leverage.size());
@@ -168,7 +175,8 @@ Uncertainties uncertainties(const Problem& problem, const FitPoint& point, const
       e2[i] = leverage[i] < full_leverage ? (l.residuals[c][i] / left) * (l.residuals[c][i] / left) : 0.0;
       if (leverage[i] < full_leverage) continue;
       for (Eigen::Index j = 0; j < width; ++j) {
-        if (b.jacobian(i, j) * b.jacobian(i, j) * own(j, j) > 0.25) single[static_cast<std::size_t>(b.index[static_cast<std::size_t>(j)])] = true;
+        if (b.jacobian(i, j) * b.jacobian(i, j) * own(j, j) > 0.25)
+          single[static_cast<std::size_t>(b.index[static_cast<std::size_t>(j)])] = true;
       }
     }
     scatter_add(b.jacobian.transpose() * e2.asDiagonal() * b.jacobian, b.index, meat);

@@ -5,7 +5,8 @@
 namespace goniofit {
 
 double wrap_deg(double degrees) noexcept {
-  const double r = std::remainder(degrees, 360.0);  // exact, in [-180, 180]
+  if (degrees > -180.0 && degrees <= 180.0) return degrees;  // std::remainder takes longer than the sine
+  const double r = std::remainder(degrees, 360.0);           // exact, in [-180, 180]
   return r == -180.0 ? 180.0 : r;
 }
 

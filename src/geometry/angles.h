@@ -1,5 +1,6 @@
 #pragma once
-// Degrees at the edge, radians never: trigonometry of degrees that is exact where the value is (0, 30, 60, 90, 180 ...).
+// Degrees at the edge, radians never: trigonometry of degrees that is exact where the value is (0, 30, 60, 90, 180
+// ...).
 
 namespace goniofit {
 

@@ -17,8 +17,8 @@ double log_one_minus(double cos, double one_minus_cos) noexcept {
   return one_minus_cos > 0.0 ? std::log(one_minus_cos) : log_of_zero;
 }
 
-// tan² of LT's theta_f for a viewer at sin/cos theta and azimuth difference delta: cos theta_f = -sin(theta) cos(delta), so
-// the sine is made of cos(theta) and sin(delta) without a cancellation. Infinite where theta_f is 90°.
+// tan² of LT's theta_f for a viewer at sin/cos theta and azimuth difference delta: cos theta_f = -sin(theta)
+// cos(delta), so the sine is made of cos(theta) and sin(delta) without a cancellation. Infinite where theta_f is 90°.
 double tan2_forward(double sin_theta, double cos_theta, double cos_delta, double sin_delta) noexcept {
   const double c2 = square(sin_theta * cos_delta);
   return (square(cos_theta) + square(sin_theta * sin_delta)) / c2;
@@ -64,7 +64,8 @@ Pair make_pair(const AnglePair& a) noexcept {
   p.mirror_distance2 = p.s_h2 + square(height);
   p.forward = sin_r * cos_delta < 0.0;
   p.tan2_f = p.forward ? tan2_forward(sin_r, p.cos_r, cos_delta, sin_delta) : 0.0;
-  // At L = N the swapped theta_f is 90°; fs vanishes there through (1 - cos_i), a finite tangent keeps 0 * infinity out.
+  // At L = N the swapped theta_f is 90°; fs vanishes there through (1 - cos_i), a finite tangent keeps 0 * infinity
+  // out.
   p.tan2_f_swapped = p.forward && sin_i > 0.0 ? tan2_forward(sin_i, p.cos_i, cos_delta, sin_delta) : 0.0;
   return p;
 }
@@ -76,8 +77,8 @@ PairBatch::PairBatch(const std::vector<AnglePair>& angles) {
 
 void PairBatch::reserve(std::size_t n) {
   for (std::vector<double>* v :
-       {&cos_i, &cos_r, &one_minus_cos_i, &one_minus_cos_r, &log_one_minus_cos_i, &log_one_minus_cos_r, &s_z, &s_h2, &cos_h,
-        &one_minus_cos_h, &tan2_b, &mirror_distance2, &tan2_f, &tan2_f_swapped, &forward}) {
+       {&cos_i, &cos_r, &one_minus_cos_i, &one_minus_cos_r, &log_one_minus_cos_i, &log_one_minus_cos_r, &s_z, &s_h2,
+        &cos_h, &one_minus_cos_h, &tan2_b, &mirror_distance2, &tan2_f, &tan2_f_swapped, &forward}) {
     v->reserve(n);
   }
 }

@@ -1,6 +1,7 @@
 #pragma once
-// Everything about a pair of directions L (to the light) and V (to the viewer) that the reflectance terms read, computed
-// once, each in the form that stays accurate at normal incidence, at grazing, at the mirror and at the retro direction.
+// Everything about a pair of directions L (to the light) and V (to the viewer) that the reflectance terms read,
+// computed once, each in the form that stays accurate at normal incidence, at grazing, at the mirror and at the retro
+// direction.
 //
 // N = +z. Both vectors point away from the surface; s = L + V. A mirror reflection has phi_r = phi_i + 180°.
 
@@ -23,23 +24,24 @@ struct AnglePair {
 /// Real is double in the program and a 50-digit float in the tests.
 template <class Real>
 struct BasicPair {
-  Real cos_i, cos_r;                   ///< a direction with cos <= 0 is outside the domain
+  Real cos_i, cos_r;  ///< a direction with cos <= 0 is outside the domain
   Real one_minus_cos_i, one_minus_cos_r;
-  Real log_one_minus_cos_i;            ///< ln(1 - cos); `log_of_zero` at the normal
+  Real log_one_minus_cos_i;  ///< ln(1 - cos); `log_of_zero` at the normal
   Real log_one_minus_cos_r;
-  Real s_z;                            ///< cos_i + cos_r
-  Real s_h2;                           ///< s_x² + s_y²
-  Real cos_h;                          ///< u, the cosine between H = s/|s| and V
+  Real s_z;    ///< cos_i + cos_r
+  Real s_h2;   ///< s_x² + s_y²
+  Real cos_h;  ///< u, the cosine between H = s/|s| and V
   Real one_minus_cos_h;
-  Real tan2_b;                         ///< tan² of the angle between H and N: s_h2 / s_z²
-  Real mirror_distance2;               ///< |V - mirror(L)|²
-  Real tan2_f;                         ///< LT's theta_f for fs; meaningful where forward
-  Real tan2_f_swapped;                 ///< the same with L and V exchanged
-  bool forward;                        ///< cos theta_f > 0: V on the mirror side of the plane through N normal to L_h
+  Real tan2_b;            ///< tan² of the angle between H and N: s_h2 / s_z²
+  Real mirror_distance2;  ///< |V - mirror(L)|²
+  Real tan2_f;            ///< LT's theta_f for fs; meaningful where forward
+  Real tan2_f_swapped;    ///< the same with L and V exchanged
+  bool forward;           ///< cos theta_f > 0: V on the mirror side of the plane through N normal to L_h
 };
 
-/// ln 0, written as a finite number: exp(q * log_of_zero) is exactly 0 for every q >= 0.1 and its derivative is 0 rather
-/// than 0 * infinity. No direction other than the normal itself comes near it (ln of the smallest double is -745).
+/// ln 0, written as a finite number: exp(q * log_of_zero) is exactly 0 for every q >= 0.1 and its derivative is 0
+/// rather than 0 * infinity. No direction other than the normal itself comes near it (ln of the smallest double is
+/// -745).
 inline constexpr double log_of_zero = -1.0e5;
 
 using Pair = BasicPair<double>;
@@ -61,14 +63,26 @@ class PairBatch {
   [[nodiscard]] std::size_t size() const noexcept { return cos_i.size(); }
   /// Inline: the batch kernels read through it, and what they do not use costs nothing.
   [[nodiscard]] [[gnu::always_inline]] inline Pair operator[](std::size_t i) const noexcept {
-    return {cos_i[i],  cos_r[i], one_minus_cos_i[i], one_minus_cos_r[i], log_one_minus_cos_i[i], log_one_minus_cos_r[i],
-            s_z[i],    s_h2[i],  cos_h[i],           one_minus_cos_h[i], tan2_b[i],              mirror_distance2[i],
-            tan2_f[i], tan2_f_swapped[i],            forward[i] != 0.0};
+    return {cos_i[i],
+            cos_r[i],
+            one_minus_cos_i[i],
+            one_minus_cos_r[i],
+            log_one_minus_cos_i[i],
+            log_one_minus_cos_r[i],
+            s_z[i],
+            s_h2[i],
+            cos_h[i],
+            one_minus_cos_h[i],
+            tan2_b[i],
+            mirror_distance2[i],
+            tan2_f[i],
+            tan2_f_swapped[i],
+            forward[i] != 0.0};
   }
   [[nodiscard]] PairBatch subset(const std::vector<std::size_t>& rows) const;
 
-  std::vector<double> cos_i, cos_r, one_minus_cos_i, one_minus_cos_r, log_one_minus_cos_i, log_one_minus_cos_r, s_z, s_h2,
-      cos_h, one_minus_cos_h, tan2_b, mirror_distance2, tan2_f, tan2_f_swapped;
+  std::vector<double> cos_i, cos_r, one_minus_cos_i, one_minus_cos_r, log_one_minus_cos_i, log_one_minus_cos_r, s_z,
+      s_h2, cos_h, one_minus_cos_h, tan2_b, mirror_distance2, tan2_f, tan2_f_swapped;
   std::vector<double> forward;  ///< 1 or 0
 };
 

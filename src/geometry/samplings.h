@@ -1,5 +1,6 @@
 #pragma once
-// The two samplings of Li & Torrance 2005, and the concentric square (Shirley & Chiu 1997) they and the tables stand on.
+// The two samplings of Li & Torrance 2005, and the concentric square (Shirley & Chiu 1997) they and the tables stand
+// on.
 
 #include <cstddef>
 #include <vector>

@@ -71,7 +71,8 @@ std::string title_block(const FitResult& result, const Scan& scan, bool color) {
   if (material.components.has(Effect::coh)) {
     out += say("solid angle", number_text(material.solid_angle_sr) + " sr (source)");
   }
-  out += say("loss", "Σ cos θᵢ (f_model − f_measured)², over samples and channels");
+  const char* const weight = result.weight == Weight::cosine ? "cos θᵢ " : "";
+  out += say("loss", fmt::format("Σ {}(f_model − f_measured)², over samples and channels", weight));
   return out;
 }
 

@@ -9,9 +9,9 @@
 
 namespace goniofit {
 
-/// Writes `content` to `path` by way of a temporary file in the same folder and a rename. Whatever stood at `path` stays
-/// untouched until the new content is complete and flushed to disk. Throws Error (system) and leaves nothing behind when
-/// anything fails: missing folder, no permission, disk full.
+/// Writes `content` to `path` by way of a temporary file in the same folder and a rename. Whatever stood at `path`
+/// stays untouched until the new content is complete and flushed to disk. Throws Error (system) and leaves nothing
+/// behind when anything fails: missing folder, no permission, disk full.
 void write_file(const std::filesystem::path& path, std::string_view content);
 
 /// The same for writers that want a file name of their own (OpenEXR, gnuplot) or a stream too large for memory:

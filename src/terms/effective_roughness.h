@@ -8,8 +8,8 @@
 
 namespace goniofit {
 
-/// Tier `li-torrance` (LT (8)): sigma_e = sigma {[1 - (1-c_i)^(1.6 q)] [1 - (1-c_r)^(1.6 q)]}^(0.1 q), q = tau/sigma. Against
-/// the exact sigma_e of He et al. 1991 at sigma 0.5, tau 3: within 0.018 up to 82°, 0.076 off at 85°/85°.
+/// Tier `li-torrance` (LT (8)): sigma_e = sigma {[1 - (1-c_i)^(1.6 q)] [1 - (1-c_r)^(1.6 q)]}^(0.1 q), q = tau/sigma.
+/// Against the exact sigma_e of He et al. 1991 at sigma 0.5, tau 3: within 0.018 up to 82°, 0.076 off at 85°/85°.
 template <EffectiveRoughnessTier tier, class T, class G, class Floor = math::NoFloor>
 [[nodiscard]] [[gnu::always_inline]] inline T log_effective_roughness(const T& q, const BasicPair<G>& p,
                                                                       Floor floor = {}) {

@@ -12,10 +12,10 @@ template <class T>
   return ((n - 1.0) * (n - 1.0) + kappa2) / ((n + 1.0) * (n + 1.0) + kappa2);
 }
 
-/// Tier `schlick` (Schlick 1994 (15)): f0 + (1 - f0)(1 - u)⁵. The argument is 1 - u, which loses nothing near the normal.
-/// Its mean (largest) relative error over uniform u is 9.9 (23) % for glass of n 1.5, 5.3 (14) % for diamond, 3.3 (10) % for
-/// aluminium at 0.55 µm and between 0.5 (1) and 2.7 (5) % for gold from 0.45 to 0.66 µm: not the "1 %" it is known for. The
-/// tests measure it, with n and kappa of each.
+/// Tier `schlick` (Schlick 1994 (15)): f0 + (1 - f0)(1 - u)⁵. The argument is 1 - u, which loses nothing near the
+/// normal. Its mean (largest) relative error over uniform u is 9.9 (23) % for glass of n 1.5, 5.3 (14) % for
+/// diamond, 3.3 (10) % for aluminium at 0.55 µm and between 0.5 (1) and 2.7 (5) % for gold from 0.45 to 0.66 µm: not
+/// the "1 %" it is known for. The tests measure it, with n and kappa of each.
 template <class T, class G>
 [[nodiscard]] [[gnu::always_inline]] inline T fresnel_schlick(const T& f0, const G& one_minus_u) {
   return f0 + (1.0 - f0) * math::pow5(one_minus_u);
@@ -37,9 +37,9 @@ struct FresnelParts {
   T lost_s, lost_p;        ///< total - reflected, without a cancellation
 };
 
-/// (a + ib)² = (n + i kappa)² - sin². The larger root is taken and the other from a b = n kappa: for small kappa, or below
-/// the critical angle of an index under 1, their difference would cancel. Rp carries a factor u throughout, which removes
-/// its 0/0 at grazing.
+/// (a + ib)² = (n + i kappa)² - sin². The larger root is taken and the other from a b = n kappa: for small kappa, or
+/// below the critical angle of an index under 1, their difference would cancel. Rp carries a factor u throughout, which
+/// removes its 0/0 at grazing.
 template <class T, class G>
 [[nodiscard]] FresnelParts<T> fresnel_parts(const T& n, const T& kappa, const G& u, const G& one_minus_u) {
   using namespace math;

@@ -1,6 +1,7 @@
 #pragma once
 // The little that the formulas need of their scalar beyond arithmetic, so that each stands once for double, for dual
-// numbers, for SIMD batches and for 50-digit floats. Formulas call exp, log ... unqualified after `using namespace math`.
+// numbers, for SIMD batches and for 50-digit floats. Formulas call exp, log ... unqualified after `using namespace
+// math`.
 
 #include <cmath>
 
@@ -25,9 +26,9 @@ template <class T>
   return x2 * x2 * x;
 }
 
-/// A lower bound for arguments of exp, or none. The batch kernels bound them at a run-time value of -700 (e^-700 = 1e-304):
-/// vector exponentials fall back to scalar code below -708, and in 1 - e^x the difference is nil. A bound known at compile
-/// time would not do: the compiler then selects after the call.
+/// A lower bound for arguments of exp, or none. The batch kernels bound them at a run-time value of -700 (e^-700 =
+/// 1e-304): vector exponentials fall back to scalar code below -708, and in 1 - e^x the difference is nil. A bound
+/// known at compile time would not do: the compiler then selects after the call.
 struct NoFloor {};
 struct FloorAt {
   double bound;

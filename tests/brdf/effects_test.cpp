@@ -80,7 +80,8 @@ TEST(Effects, CoherentPartFollowsItsFormula) {
   const double f0 = m.channels[0].normal_reflectance();
   const double f = f0 + (1.0 - f0) * std::pow(0.5, 5);
   const double s = std::pow(1.0 - std::pow(0.5, q), 2);
-  const double expected = *m.channels[0].coefficient(Coefficient::k_dd) * f * s * std::exp(-phase * phase) / (0.5 * m.solid_angle_sr);
+  const double expected =
+      *m.channels[0].coefficient(Coefficient::k_dd) * f * s * std::exp(-phase * phase) / (0.5 * m.solid_angle_sr);
   EXPECT_NEAR(e.value(p, 0, Effect::coh), expected, 1e-12 * expected);
   EXPECT_EQ(e.value(make_pair(in_plane(60.0, 61.0)), 0, Effect::coh), 0.0);
 }

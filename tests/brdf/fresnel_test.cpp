@@ -21,7 +21,8 @@ double reference(double n, double kappa, double u) {
 }
 
 TEST(Fresnel, ExactAgreesWithComplexAmplitudes) {
-  for (const auto& [n, kappa] : {std::pair(1.5, 0.0), {1.01, 0.0}, {0.958, 6.69}, {0.618, 5.47}, {4.5, 13.0}, {2.0, 0.01}}) {
+  for (const auto& [n, kappa] :
+       {std::pair(1.5, 0.0), {1.01, 0.0}, {0.958, 6.69}, {0.618, 5.47}, {4.5, 13.0}, {2.0, 0.01}}) {
     for (double u = 0.01; u <= 1.0; u += 0.01) {
       EXPECT_NEAR(fresnel_exact(n, kappa, u, 1.0 - u), reference(n, kappa, u), 2e-14) << n << " " << kappa << " " << u;
     }
@@ -56,7 +57,11 @@ TEST(Fresnel, SchlicksErrorIsWhatTheHeaderSays) {
     double n, kappa, mean, largest;
   };
   // Glass, diamond, aluminium at 0.55 µm, gold at 0.4959 and 0.5486 µm (Johnson & Christy 1972).
-  for (const Case& c : {Case{1.5, 0.0, 0.0990, 0.232}, {2.42, 0.0, 0.0528, 0.139}, {0.958, 6.69, 0.0329, 0.105}, {1.04, 1.833, 0.0272, 0.0548}, {0.43, 2.455, 0.0050, 0.0117}}) {
+  for (const Case& c : {Case{1.5, 0.0, 0.0990, 0.232},
+                        {2.42, 0.0, 0.0528, 0.139},
+                        {0.958, 6.69, 0.0329, 0.105},
+                        {1.04, 1.833, 0.0272, 0.0548},
+                        {0.43, 2.455, 0.0050, 0.0117}}) {
     double sum = 0.0;
     double largest = 0.0;
     constexpr int steps = 20000;

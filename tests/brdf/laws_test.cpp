@@ -18,10 +18,14 @@ class Draw {
   double log_uniform(double low, double high) { return std::exp(uniform(std::log(low), std::log(high))); }
   double theta() {
     switch (static_cast<int>(uniform(0, 6))) {
-      case 0: return 0.0;
-      case 1: return log_uniform(1e-12, 1e-2);
-      case 2: return 90.0 - log_uniform(1e-10, 1.0);
-      default: return uniform(0.0, 90.0);
+      case 0:
+        return 0.0;
+      case 1:
+        return log_uniform(1e-12, 1e-2);
+      case 2:
+        return 90.0 - log_uniform(1e-10, 1.0);
+      default:
+        return uniform(0.0, 90.0);
     }
   }
   AnglePair angles() {
@@ -42,7 +46,8 @@ class Draw {
     m.terms.fresnel = uniform(0, 1) < 0.5 ? FresnelTier::schlick : FresnelTier::exact;
     const bool metal = uniform(0, 1) < 0.5;
     m.channels = {test::channel("R", uniform(0.3, 10.0), metal ? uniform(0.05, 6.0) : uniform(1.0, 4.0),
-                                metal ? log_uniform(1e-3, 1e3) : 0.0, uniform(0, 1), uniform(0, 1), uniform(0, 1), uniform(0, 3))};
+                                metal ? log_uniform(1e-3, 1e3) : 0.0, uniform(0, 1), uniform(0, 1), uniform(0, 1),
+                                uniform(0, 3))};
     m.fs_form = uniform(0, 1) < 0.5 ? FsForm::printed : FsForm::reciprocal;
     return m;
   }
@@ -69,9 +74,10 @@ TEST(Laws, FiniteNonNegativeAndReciprocal) {
         const double one = e.value(p, 0, effect);
         const double other = e.value(q, 0, effect);
         // Where the exponent is large, so is the effect of a rounding of it.
-        const double allowed = 1e-11 * (1.0 + std::fabs(std::log(std::max(one, 1e-300)))) / std::min(1.0, 1e4 * *m.surface.slope);
-        ASSERT_LE(std::fabs(one - other), allowed * one + 1e-280) << name_of(effect) << " slope " << *m.surface.slope << " at "
-                                                                  << a.theta_i_deg << ", " << a.theta_r_deg;
+        const double allowed =
+            1e-11 * (1.0 + std::fabs(std::log(std::max(one, 1e-300)))) / std::min(1.0, 1e4 * *m.surface.slope);
+        ASSERT_LE(std::fabs(one - other), allowed * one + 1e-280)
+            << name_of(effect) << " slope " << *m.surface.slope << " at " << a.theta_i_deg << ", " << a.theta_r_deg;
       }
     }
   }

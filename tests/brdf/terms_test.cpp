@@ -41,11 +41,13 @@ double he_effective_roughness(double slope, double theta_i_deg, double theta_r_d
 TEST(EffectiveRoughness, IsAsFarFromTheExactOneAsTheHeaderSays) {
   const double slope = 0.5 / 3.0;
   const auto ours = [slope](double theta_i, double theta_r) {
-    return std::exp(log_effective_roughness<EffectiveRoughnessTier::li_torrance>(1.0 / slope, make_pair(in_plane(theta_i, theta_r))));
+    return std::exp(log_effective_roughness<EffectiveRoughnessTier::li_torrance>(
+        1.0 / slope, make_pair(in_plane(theta_i, theta_r))));
   };
   double worst = 0.0;
   for (double i = 0.0; i <= 82.0; i += 2.0) {
-    for (double r = 0.0; r <= 82.0; r += 2.0) worst = std::max(worst, std::fabs(ours(i, r) - he_effective_roughness(slope, i, r)));
+    for (double r = 0.0; r <= 82.0; r += 2.0)
+      worst = std::max(worst, std::fabs(ours(i, r) - he_effective_roughness(slope, i, r)));
   }
   EXPECT_LT(worst, 0.0185);
   EXPECT_GT(worst, 0.010);
@@ -79,13 +81,13 @@ double dd_error(double slope, const AnglePair& angles) {
 TEST(DirectionalDiffuse, RoundOffStaysSmallInHardCorners) {
   // Each corner with what a naive form does there.
   const std::vector<AnglePair> corners{
-      in_plane(0.0, 0.0),              // ln(1 - cos) is infinite
-      in_plane(1e-6, 1e-6),            // 1 - cos is 0 after rounding
-      in_plane(45.0, 45.0),            // the mirror: tan² from acos is 1e-16 instead of 0
-      in_plane(45.0, 45.0001),         // next to it
-      in_plane(89.0, 89.0),            // sigma_e small: 1/m_e² large
-      in_plane(89.9, 10.0),            // one grazing: S/c is 0/0
-      in_plane(30.0, -30.0),           // retro
+      in_plane(0.0, 0.0),               // ln(1 - cos) is infinite
+      in_plane(1e-6, 1e-6),             // 1 - cos is 0 after rounding
+      in_plane(45.0, 45.0),             // the mirror: tan² from acos is 1e-16 instead of 0
+      in_plane(45.0, 45.0001),          // next to it
+      in_plane(89.0, 89.0),             // sigma_e small: 1/m_e² large
+      in_plane(89.9, 10.0),             // one grazing: S/c is 0/0
+      in_plane(30.0, -30.0),            // retro
       AnglePair{60.0, 0.0, 60.0, 90.0}  // out of the plane
   };
   double worst = 0.0;

@@ -10,7 +10,8 @@
 namespace goniofit {
 namespace {
 
-// Every assignment of lower, upper or free: the least value among those whose free part lies inside. Exponential and certain.
+// Every assignment of lower, upper or free: the least value among those whose free part lies inside. Exponential and
+// certain.
 double brute_force(const SmallMatrix& g, const SmallVector& b, const SmallVector& lower, const SmallVector& upper) {
   const auto n = static_cast<int>(b.size());
   int faces = 1;
@@ -93,8 +94,8 @@ TEST(BoundedLeastSquares, ScalesOfColumnsDoNotMatter) {
   const BoundedSolution plain = solve_bounded(g, b, lower, upper);
   SmallVector unit(2);
   unit << 1e9, 1e-3;
-  const BoundedSolution scaled = solve_bounded(SmallMatrix(unit.asDiagonal() * g * unit.asDiagonal()), unit.cwiseProduct(b),
-                                               lower, SmallVector(upper.cwiseQuotient(unit)));
+  const BoundedSolution scaled = solve_bounded(SmallMatrix(unit.asDiagonal() * g * unit.asDiagonal()),
+                                               unit.cwiseProduct(b), lower, SmallVector(upper.cwiseQuotient(unit)));
   for (int i = 0; i < 2; ++i) EXPECT_NEAR(scaled.x[i] * unit[i], plain.x[i], 1e-14);
   EXPECT_EQ(plain.state[0], BoundState::at_upper);
 }

@@ -40,7 +40,8 @@ void expect_recovered(const FitResult& r, const Material& truth, double toleranc
     for (const FittedParameter& p : r.parameters) {
       if (p.channel != truth.channels[c].name || p.name[0] != 'k') continue;
       const double expected = *truth.channels[c].coefficient(*parse_name<Coefficient>(p.name));
-      EXPECT_NEAR(*p.value, expected, tolerance * std::max(1.0, expected)) << truth.name << " " << p.channel << " " << p.name;
+      EXPECT_NEAR(*p.value, expected, tolerance * std::max(1.0, expected))
+          << truth.name << " " << p.channel << " " << p.name;
     }
   }
 }
@@ -88,7 +89,8 @@ TEST(Fit, WithoutCoherenceSigmaAndTauStayUnknown) {
   EXPECT_FALSE(r.material.fit->identifiable.at("sigma_um"));
   EXPECT_FALSE(r.material.fit->identifiable.at("tau_um"));
   EXPECT_TRUE(r.material.fit->identifiable.at("slope"));
-  EXPECT_TRUE(std::any_of(r.notes.begin(), r.notes.end(), [](const std::string& n) { return n.find("neither is determined alone") != n.npos; }));
+  EXPECT_TRUE(std::any_of(r.notes.begin(), r.notes.end(),
+                          [](const std::string& n) { return n.find("neither is determined alone") != n.npos; }));
 }
 
 TEST(Fit, AMeasuredSigmaGivesTauWithItsUncertainty) {
@@ -138,7 +140,8 @@ TEST(Fit, FreeOpticsAreFoundPerChannel) {
   for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(*r.material.channels[c].n, *truth.channels[c].n, 1e-6);
   s.free_optics = FreeOptics::f0;
   r = fit(scan, s);
-  for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(*r.material.channels[c].f0, truth.channels[c].normal_reflectance(), 1e-7);
+  for (std::size_t c = 0; c < 3; ++c)
+    EXPECT_NEAR(*r.material.channels[c].f0, truth.channels[c].normal_reflectance(), 1e-7);
 }
 
 // MODEL's table: the paper's paint and paper from their own parameters, with noise.
@@ -149,7 +152,8 @@ TEST(Fit, PapersSamplesComeBackFromNoisyScans) {
     EXPECT_NEAR(*r.material.surface.slope / *truth.surface.slope, 1.0, 0.01) << truth.name;
     for (const FittedParameter& p : r.parameters) {
       if (p.channel.empty() || !p.u) continue;
-      const auto channel = std::find_if(truth.channels.begin(), truth.channels.end(), [&](const MaterialChannel& c) { return c.name == p.channel; });
+      const auto channel = std::find_if(truth.channels.begin(), truth.channels.end(),
+                                        [&](const MaterialChannel& c) { return c.name == p.channel; });
       const double expected = *channel->coefficient(*parse_name<Coefficient>(p.name));
       EXPECT_LT(std::fabs(*p.value - expected), 5.0 * *p.u + 0.01) << truth.name << " " << p.channel << " " << p.name;
     }
@@ -221,7 +225,8 @@ TEST(Fit, LambertianScanHasNoSlope) {
   EXPECT_FALSE(r.material.surface.slope);
   EXPECT_FALSE(r.material.fit->identifiable.at("slope"));
   EXPECT_NEAR(*parameter(r, "k_udf", "R").value, 0.5, 1e-10);
-  EXPECT_TRUE(std::any_of(r.warnings.begin(), r.warnings.end(), [](const std::string& w) { return w.find("slope is not determined") != w.npos; }));
+  EXPECT_TRUE(std::any_of(r.warnings.begin(), r.warnings.end(),
+                          [](const std::string& w) { return w.find("slope is not determined") != w.npos; }));
   EXPECT_NO_THROW(validate(r.material, "fitted"));
 }
 
@@ -238,12 +243,14 @@ TEST(Fit, CoherenceThatTheScanCannotSeeIsLeftOut) {
   // No mirror reading at all.
   for (std::size_t i = 0; i < scan.size(); ++i) {
     const bool forward = scan.phi_r_deg[i] == 180.0;
-    if (forward && std::fabs(scan.theta_r_deg[i] - scan.theta_i_deg[i]) < 1.5) scan.theta_r_deg[i] = scan.theta_i_deg[i] + 1.5;
+    if (forward && std::fabs(scan.theta_r_deg[i] - scan.theta_i_deg[i]) < 1.5)
+      scan.theta_r_deg[i] = scan.theta_i_deg[i] + 1.5;
   }
   s.components = truth.components;
   const FitResult without = fit(scan, s);
   EXPECT_FALSE(without.material.components.has(Effect::coh));
-  EXPECT_TRUE(std::any_of(without.warnings.begin(), without.warnings.end(), [](const std::string& w) { return w.find("coh was left out") != w.npos; }));
+  EXPECT_TRUE(std::any_of(without.warnings.begin(), without.warnings.end(),
+                          [](const std::string& w) { return w.find("coh was left out") != w.npos; }));
 }
 
 TEST(Fit, ContradictionsAreNamed) {
@@ -253,23 +260,40 @@ TEST(Fit, ContradictionsAreNamed) {
     change(s);
     return error_message([&] { (void)fit(scan, s); });
   };
-  EXPECT_EQ(message([](FitSettings& s) { s.parameters["k_dx"].value = 1.0; }).substr(0, 25), "2 parameter k_dx: no such");
-  EXPECT_NE(message([](FitSettings& s) { s.parameters["X.k_dd"].value = 1.0; }).find("no such channel, the scan has R, G, B"), std::string::npos);
-  EXPECT_NE(message([](FitSettings& s) { s.parameters["R.slope"].value = 0.1; }).find("shared by all channels"), std::string::npos);
-  EXPECT_NE(message([](FitSettings& s) { s.parameters["slope"].value = 20.0; }).find("out of range, expected [0.0001, 10]"), std::string::npos);
-  EXPECT_NE(message([](FitSettings& s) { s.parameters["k_dd"] = {std::nullopt, 0.8, 0.2}; }).find("above upper bound"), std::string::npos);
-  EXPECT_NE(message([](FitSettings& s) { s.n = {1.5, 1.6}; }).find("2 values given, expected one or one for each of the 3"), std::string::npos);
-  EXPECT_NE(message([](FitSettings& s) { s.max_theta_deg = 3.0; }).find("no reading is left to fit"), std::string::npos);
-  EXPECT_NE(message([](FitSettings& s) { s.parameters["sigma_um"].max = 3.0; }).find("bounds have no meaning without coh"), std::string::npos);
+  EXPECT_EQ(message([](FitSettings& s) { s.parameters["k_dx"].value = 1.0; }).substr(0, 25),
+            "2 parameter k_dx: no such");
+  EXPECT_NE(
+      message([](FitSettings& s) { s.parameters["X.k_dd"].value = 1.0; }).find("no such channel, the scan has R, G, B"),
+      std::string::npos);
+  EXPECT_NE(message([](FitSettings& s) { s.parameters["R.slope"].value = 0.1; }).find("shared by all channels"),
+            std::string::npos);
+  EXPECT_NE(
+      message([](FitSettings& s) { s.parameters["slope"].value = 20.0; }).find("out of range, expected [0.0001, 10]"),
+      std::string::npos);
+  EXPECT_NE(message([](FitSettings& s) {
+              s.parameters["k_dd"] = {std::nullopt, 0.8, 0.2};
+            }).find("above upper bound"),
+            std::string::npos);
+  EXPECT_NE(message([](FitSettings& s) {
+              s.n = {1.5, 1.6};
+            }).find("2 values given, expected one or one for each of the 3"),
+            std::string::npos);
+  EXPECT_NE(message([](FitSettings& s) { s.max_theta_deg = 3.0; }).find("no reading is left to fit"),
+            std::string::npos);
+  EXPECT_NE(
+      message([](FitSettings& s) { s.parameters["sigma_um"].max = 3.0; }).find("bounds have no meaning without coh"),
+      std::string::npos);
   EXPECT_NE(message([](FitSettings& s) {
               s.parameters["sigma_um"].value = 1.0;
               s.parameters["tau_um"].value = 10.0;
               s.parameters["slope"].value = 0.2;
-            }).find("another value than sigma_um / tau_um"), std::string::npos);
+            }).find("another value than sigma_um / tau_um"),
+            std::string::npos);
   EXPECT_NE(message([](FitSettings& s) {
               s.terms.fresnel = FresnelTier::exact;
               s.f0 = {0.04};
-            }).find("the exact Fresnel term needs n"), std::string::npos);
+            }).find("the exact Fresnel term needs n"),
+            std::string::npos);
 }
 
 }  // namespace

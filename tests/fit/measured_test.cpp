@@ -1,4 +1,5 @@
-// Real scans: the global optimum against a dense search that shares no code with the fit but the evaluation of the model.
+// Real scans: the global optimum against a dense search that shares no code with the fit but the evaluation of the
+// model.
 
 #include <gtest/gtest.h>
 
@@ -109,7 +110,8 @@ TEST(Measured, NoDenselySearchedSlopeIsBetter) {
       a(i, 0) = w * unit.value(p, 0, Effect::dd);
       a(i, 1) = w * unit.value(p, 0, Effect::uds);
       a(i, 2) = w * unit.value(p, 0, Effect::fs);
-      for (Eigen::Index k = 0; k < 3; ++k) y(i, k) = w * scan.channels[static_cast<std::size_t>(k)].values[static_cast<std::size_t>(i)];
+      for (Eigen::Index k = 0; k < 3; ++k)
+        y(i, k) = w * scan.channels[static_cast<std::size_t>(k)].values[static_cast<std::size_t>(i)];
     }
     double loss = 0.0;
     for (Eigen::Index k = 0; k < 3; ++k) loss += best_loss(a, y.col(k));

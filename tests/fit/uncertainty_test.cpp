@@ -83,7 +83,8 @@ TEST(Uncertainty, StatesTheSpreadOfRepeatedScans) {
   double sum2 = 0.0;
   double stated2 = 0.0;
   for (int t = 0; t < trials; ++t) {
-    const Problem problem(simulate(truth, Sampling::incidence_plane, {0.02, 0.0}, 1000 + static_cast<std::uint64_t>(t)), settings_for(truth));
+    const Problem problem(simulate(truth, Sampling::incidence_plane, {0.02, 0.0}, 1000 + static_cast<std::uint64_t>(t)),
+                          settings_for(truth));
     const Polished best = polish(problem, search(problem).minima.front());
     const double u = uncertainties(problem, best.point, linearise(problem, best.point)).shape[0].u;
     sum += best.point.z[0];

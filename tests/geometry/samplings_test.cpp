@@ -40,9 +40,8 @@ TEST(Samplings, EqualAreasAreEqualSolidAngles) {
 TEST(Samplings, HemisphereIsThePapers) {
   const std::vector<AnglePair> pairs = hemisphere_sampling(false);
   EXPECT_EQ(pairs.size(), 8U * 441U);
-  const auto outermost = std::max_element(pairs.begin(), pairs.end(), [](const AnglePair& a, const AnglePair& b) {
-    return a.theta_r_deg < b.theta_r_deg;
-  });
+  const auto outermost = std::max_element(
+      pairs.begin(), pairs.end(), [](const AnglePair& a, const AnglePair& b) { return a.theta_r_deg < b.theta_r_deg; });
   EXPECT_NEAR(outermost->theta_r_deg, 84.67, 0.005);
   EXPECT_EQ(hemisphere_sampling(true).size(), 8U * 442U);
 }
@@ -60,7 +59,8 @@ TEST(Samplings, IncidencePlaneIsDenseAtTheMirrorAndHasIt) {
     EXPECT_GE(*std::min_element(theta_r.begin(), theta_r.end()), -85.0);
     EXPECT_LE(*std::max_element(theta_r.begin(), theta_r.end()), 85.0);
     const double mirror = theta_i;
-    const auto near = std::count_if(theta_r.begin(), theta_r.end(), [mirror](double d) { return std::fabs(d - mirror) <= 4.0; });
+    const auto near =
+        std::count_if(theta_r.begin(), theta_r.end(), [mirror](double d) { return std::fabs(d - mirror) <= 4.0; });
     EXPECT_GE(near, 17);
   }
 }

@@ -40,6 +40,6 @@ class ScratchDir {
 
 }  // namespace goniofit::test
 
-#define GONIOFIT_SKIP_WITHOUT_SHARED_DATA()                                                        \
-  if (!::goniofit::test::shared_data())                                                            \
+#define GONIOFIT_SKIP_WITHOUT_SHARED_DATA() \
+  if (!::goniofit::test::shared_data())     \
   GTEST_SKIP() << "measured scans are not here (set GONIOFIT_SHARED_DATA to their folder)"

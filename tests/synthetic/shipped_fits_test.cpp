@@ -50,7 +50,7 @@ void expect_same(const std::string& what, const std::optional<double>& now, cons
                  double relative) {
   ASSERT_EQ(now.has_value(), committed.has_value()) << what;
   if (!now) return;
-  EXPECT_NEAR(*now, *committed, relative * std::fabs(*committed)) << what;
+  EXPECT_NEAR(*now, *committed, relative * std::fabs(*committed) + 1e-12) << what;
 }
 
 void expect_within(const std::string& what, const std::optional<double>& truth, const FittedParameter& p) {

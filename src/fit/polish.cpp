@@ -213,7 +213,7 @@ double steepness(double product, double column2, double reach, double loss, doub
   if (column2 <= 0.0) return 0.0;
   const double step = std::min(std::fabs(product) / column2, reach);
   const double gain = step * (2.0 * std::fabs(product) - step * column2);
-  if (gain <= 1e-24 * total) return 0.0;
+  if (gain <= 1e-22 * total) return 0.0;
   return std::copysign(std::sqrt(gain / loss), product);
 }
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Makes the shipped scans and fits anew: data/*.csv from the truths under fits/, then fits/*.json and fits/materials.csv
-# from the scans. Run it after a change that moves them, look at `git diff`, and say in the commit why they moved.
+# Makes the shipped scans and fits anew: data/*.csv from the truths under fits/, then fits/*.json, their plots and
+# fits/materials.csv from the scans. Run it after a change that moves them, look at `git diff`, and say in the commit why they moved.
 source "$(dirname "$0")/lib.sh"
 
 build_program
@@ -9,7 +9,7 @@ build_program
 remake() {
   local name=$1 sampling=$2 seed=$3
   "$goniofit" simulate "fits/$name.truth.json" --sampling "$sampling" --noise 0.02 --seed "$seed" --output "data/$name.csv"
-  "$goniofit" fit --recipe "fits/$name.toml" --output "fits/$name.json" --quiet
+  "$goniofit" fit --recipe "fits/$name.toml" --output "fits/$name.json" --plot "fits/$name.svg" --quiet >/dev/null
   materials+=("fits/$name.json")
 }
 

@@ -18,7 +18,11 @@ dir=build
 options=(-DGONIOFIT_SANITIZE=OFF)
 while (($#)); do
   case $1 in
-    --sanitize) dir=build-sanitize options=(-DGONIOFIT_SANITIZE=ON -DCMAKE_BUILD_TYPE=RelWithDebInfo) ;;
+    --sanitize)
+      dir=build-sanitize
+      # Instrumented code makes GCC 12 warn inside its own library; the warnings that count are the release build's.
+      options=(-DGONIOFIT_SANITIZE=ON -DCMAKE_BUILD_TYPE=RelWithDebInfo -DGONIOFIT_WERROR=OFF)
+      ;;
     --format)
       check_format
       exit

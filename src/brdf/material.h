@@ -11,6 +11,8 @@
 #include <string_view>
 #include <vector>
 
+#include "../terms/tiers.h"
+
 namespace goniofit {
 
 /// The effects of Li & Torrance 2005, section 2.
@@ -47,11 +49,6 @@ inline constexpr std::array all_coefficients{Coefficient::k_dd, Coefficient::k_u
 inline constexpr std::size_t coefficient_count = all_coefficients.size();
 [[nodiscard]] Coefficient coefficient_of(Effect effect) noexcept;
 
-// The ladders: every term of the one formula has exchangeable tiers.
-enum class FresnelTier : std::uint8_t { schlick, exact, none };
-enum class ShadowingTier : std::uint8_t { li_torrance, none };
-enum class EffectiveRoughnessTier : std::uint8_t { li_torrance, none };
-enum class DistributionTier : std::uint8_t { rough_limit };
 enum class FsForm : std::uint8_t { printed, reciprocal };
 
 struct Terms {

@@ -7,6 +7,7 @@ set(GONIOFIT_PACKAGE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/goniofit)
 set(GONIOFIT_PUBLIC_HEADERS
   support/error.h support/output_file.h
   geometry/angles.h geometry/pair.h geometry/samplings.h
+  terms/tiers.h
   brdf/material.h brdf/evaluator.h
   scan/scan.h
   fit/settings.h fit/fit.h

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iomanip>
 #include <limits>
+#include <map>
 #include <sstream>
 
 #include "fit/model.h"
@@ -18,6 +19,24 @@ std::string percent(double part) {
   std::ostringstream text;
   text << std::setprecision(2) << 100.0 * part << " %";
   return text.str();
+}
+
+using ByName = std::map<std::string, std::vector<std::string>>;  // parameter, its channels
+
+// "k_dd of every channel, k_uds of R and B".
+std::string listed(const ByName& parameters, std::size_t all) {
+  std::string text;
+  for (const auto& [name, channels] : parameters) {
+    text += (text.empty() ? "" : ", ") + name + " of ";
+    if (channels.size() == all && all > 1) {
+      text += "every channel";
+      continue;
+    }
+    for (std::size_t i = 0; i < channels.size(); ++i) {
+      text += (i == 0 ? "" : i + 1 == channels.size() ? " and " : ", ") + channels[i];
+    }
+  }
+  return text;
 }
 
 FittedParameter undetermined_length(const char* name) {
@@ -281,24 +300,27 @@ void Assembly::add_warnings() {
     out_.warnings.emplace_back(
         "the fit did not converge; look at the plot and at the bounds, and try fewer components");
   warn_of_surface();
-  std::string at_zero;
-  std::string at_upper;
+  ByName on_lower;
+  ByName on_upper;
   for (const FittedParameter& p : out_.parameters) {
     if (p.channel.empty() || p.fixed) continue;
-    const std::string key = p.channel + "." + p.name;
-    if (p.at_lower) at_zero += (at_zero.empty() ? "" : ", ") + key;
-    if (p.at_upper) at_upper += (at_upper.empty() ? "" : ", ") + key;
-    if (!p.value)
-      out_.warnings.push_back(
-          key + " is not determined: no reading of the scan depends on it alone; leave its component out, or fix it");
+    if (p.at_lower) on_lower[p.name].push_back(p.channel);
+    if (p.at_upper) on_upper[p.name].push_back(p.channel);
+    if (!p.value) {
+      out_.warnings.push_back(p.channel + "." + p.name +
+                              " is not determined: no reading of the scan depends on it alone; leave its component out, "
+                              "or fix it");
+    }
   }
-  if (!at_zero.empty())
-    out_.notes.push_back("on the lower bound: " + at_zero +
+  const std::size_t channels = problem_.channels.size();
+  if (!on_lower.empty()) {
+    out_.notes.push_back("on the lower bound: " + listed(on_lower, channels) +
                          "; the uncertainties of the others hold with these where they are");
-  if (!at_upper.empty()) {
-    out_.warnings.push_back(
-        "on the upper bound: " + at_upper +
-        "; check the scan's absolute scale and the refractive index, or widen the bound (--bound NAME=MIN:MAX)");
+  }
+  if (!on_upper.empty()) {
+    out_.warnings.push_back("on the upper bound: " + listed(on_upper, channels) +
+                            "; check the scan's absolute scale and the refractive index, or widen the bound (--bound "
+                            "NAME=MIN:MAX)");
   }
   const double unexplained = std::sqrt(l_.loss / std::max(problem_.total, std::numeric_limits<double>::min()));
   if (unexplained > 0.3) {

@@ -143,9 +143,9 @@ void Problem::choose_components(const Scan& scan, const FitSettings& settings) {
     components_were_auto = true;
     notes.emplace_back(
         metal
-            ? "components auto: dd, udf, because kappa > 0 (a metal lets no light below its surface); selection by the "
-              "data is not made yet"
-            : "components auto: dd, uds, fs, because kappa = 0 (a dielectric); selection by the data is not made yet");
+            ? "components auto: dd, udf, because kappa > 0 (a metal lets no light below its surface); the data do not "
+              "choose yet"
+            : "components auto: dd, uds, fs, because kappa = 0 (a dielectric); the data do not choose yet");
   }
   if (!components.has(Effect::coh)) return;
   for (const ProblemChannel& c : channels) {

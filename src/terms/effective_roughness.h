@@ -2,9 +2,9 @@
 // The effective RMS height sigma_e: towards grazing the valleys are hidden and the surface looks smoother. Carried as
 // ln(sigma_e / sigma), because sigma_e itself underflows at grazing long before anything else does.
 
-#include "../brdf/material.h"
 #include "../geometry/pair.h"
 #include "scalar.h"
+#include "tiers.h"
 
 namespace goniofit {
 

@@ -2,9 +2,9 @@
 // Shadowing and masking S = S1(cos_i) S1(cos_r), always as S1(c)/c: dd divides by both cosines, and the quotient is
 // finite at grazing where S1 and c vanish together.
 
-#include "../brdf/material.h"
 #include "../geometry/pair.h"
 #include "scalar.h"
+#include "tiers.h"
 
 namespace goniofit {
 

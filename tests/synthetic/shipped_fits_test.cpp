@@ -6,9 +6,9 @@
 #include <filesystem>
 #include <fstream>
 #include <optional>
-#include <regex>
 #include <set>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 
 #include "fit/fit.h"
@@ -38,10 +38,10 @@ std::string text_of(const fs::path& path) {
 
 /// The seed that the scan's own metadata name.
 std::uint64_t seed_of(const Scan& scan) {
+  const std::string flag = "--seed ";
   for (const auto& [key, value] : scan.metadata) {
-    std::smatch found;
-    if (key == "made_by" && std::regex_search(value, found, std::regex("--seed ([0-9]+)")))
-      return std::stoull(found[1]);
+    const std::size_t at = value.find(flag);
+    if (key == "made_by" && at != std::string::npos) return std::stoull(value.substr(at + flag.size()));
   }
   throw std::runtime_error(scan.source + " does not say by which seed it was made");
 }

@@ -259,7 +259,20 @@ void Assembly::add_coefficient(std::size_t c, std::size_t column) {
     p.value.reset();
     p.u.reset();
   }
-  record(p, p.value.has_value());
+  // An uncertainty beyond both the value and 1 says nothing of a coefficient whose scale is 1. Where all that it adds
+  // to the scan is less than the residual of one reading, it is not determined; else it is so only apart from its
+  // companions.
+  const bool says_nothing = p.value && p.u && *p.u > std::max(1.0, *p.value);
+  const double noise2 = out_.loss / static_cast<double>(out_.samples * problem_.channels.size());
+  if (says_nothing && *p.value * *p.value * l_.by_coefficient[c].col(j).squaredNorm() < noise2) {
+    p.value.reset();
+    p.u.reset();
+  } else if (says_nothing) {
+    out_.warnings.push_back(p.name + " of " + p.channel +
+                            " is not determined apart from the others: its uncertainty exceeds its value; fix it or "
+                            "another parameter of its component");
+  }
+  record(p, p.value.has_value() && !says_nothing);
   out_.material.channels[c].coefficient(coefficient) = p.value;
 }
 
@@ -307,9 +320,10 @@ void Assembly::add_warnings() {
     if (p.at_lower) on_lower[p.name].push_back(p.channel);
     if (p.at_upper) on_upper[p.name].push_back(p.channel);
     if (!p.value) {
-      out_.warnings.push_back(p.channel + "." + p.name +
-                              " is not determined: no reading of the scan depends on it alone; leave its component out, "
-                              "or fix it");
+      out_.warnings.push_back(
+          p.channel + "." + p.name +
+          " is not determined: no reading of the scan depends on it alone; leave its component out, "
+          "or fix it");
     }
   }
   const std::size_t channels = problem_.channels.size();

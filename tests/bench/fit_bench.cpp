@@ -4,6 +4,7 @@
 #include <benchmark/benchmark.h>
 #include <ceres/ceres.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -36,6 +37,9 @@ FitSettings settings() {
   return s;
 }
 
+double least(const std::vector<double>& v) { return *std::min_element(v.begin(), v.end()); }
+double largest(const std::vector<double>& v) { return *std::max_element(v.begin(), v.end()); }
+
 void joint_fit(benchmark::State& state) {
   const Scan scan = scan_of(static_cast<std::size_t>(state.range(0)));
   double loss = 0.0;
@@ -44,7 +48,12 @@ void joint_fit(benchmark::State& state) {
   }
   state.counters["loss"] = loss;
 }
-BENCHMARK(joint_fit)->Arg(3)->Arg(31)->Unit(benchmark::kMillisecond);
+BENCHMARK(joint_fit)
+    ->Arg(3)
+    ->Arg(31)
+    ->Unit(benchmark::kMillisecond)
+    ->ComputeStatistics("min", least)
+    ->ComputeStatistics("max", largest);
 
 // One reading of three channels: parameters slope and (k_dd, k_uds, k_fs) of each channel.
 struct ReadingCost {
@@ -99,7 +108,10 @@ void plain_ceres_fit(benchmark::State& state) {
   }
   state.counters["loss"] = loss;
 }
-BENCHMARK(plain_ceres_fit)->Unit(benchmark::kMillisecond);
+BENCHMARK(plain_ceres_fit)
+    ->Unit(benchmark::kMillisecond)
+    ->ComputeStatistics("min", least)
+    ->ComputeStatistics("max", largest);
 
 }  // namespace
 }  // namespace goniofit

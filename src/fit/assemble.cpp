@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "fit/model.h"
-#include "fit/parameter_settings.h"
+#include "fit/shape_rows.h"
 #include "fit/uncertainty.h"
 
 namespace goniofit {
@@ -39,14 +39,6 @@ std::string listed(const ByName& parameters, std::size_t all) {
   return text;
 }
 
-FittedParameter undetermined_length(const char* name) {
-  FittedParameter p;
-  p.name = name;
-  p.unit = "um";
-  p.upper = std::numeric_limits<double>::infinity();
-  return p;
-}
-
 class Assembly {
  public:
   Assembly(const Problem& problem, const Scan& scan, const Polished& best)
@@ -65,8 +57,6 @@ class Assembly {
   void add_warnings();
   void warn_of_surface();
   void record(const FittedParameter& p, bool identifiable);
-  [[nodiscard]] FittedParameter row(const std::string& name, const std::string& channel, double value, double lower,
-                                    double upper, const ParameterUncertainty& u) const;
 
   const Problem& problem_;
   const Scan& scan_;
@@ -113,21 +103,6 @@ void Assembly::add_totals() {
   summary_.converged = out_.converged;
 }
 
-FittedParameter Assembly::row(const std::string& name, const std::string& channel, double value, double lower,
-                              double upper, const ParameterUncertainty& u) const {
-  FittedParameter p;
-  p.name = name;
-  p.channel = channel;
-  if (u.state != ParameterState::undetermined) p.value = value;
-  if (std::isfinite(u.u)) p.u = u.u;
-  p.lower = lower;
-  p.upper = upper;
-  p.fixed = u.state == ParameterState::fixed;
-  p.at_lower = u.state == ParameterState::at_lower;
-  p.at_upper = u.state == ParameterState::at_upper;
-  return p;
-}
-
 void Assembly::record(const FittedParameter& p, bool identifiable) {
   out_.parameters.push_back(p);
   const std::string key = p.channel.empty() ? p.name : p.channel + "." + p.name;
@@ -140,89 +115,10 @@ void Assembly::record(const FittedParameter& p, bool identifiable) {
   }
 }
 
-// Slope, sigma and tau from the logarithms z by the map of the problem; uncertainties to first order.
 void Assembly::add_shape() {
-  const ShapeMap& map = problem_.shape;
-  const Eigen::Vector2d log_shape = map.log_shape(best_.point.z.data());
-  // Variance of g · z; NaN where a z that it reads has none.
-  const auto log_u = [&](const Eigen::Vector2d& gradient) {
-    double variance = 0.0;
-    for (int a = 0; a < map.free; ++a) {
-      const ParameterUncertainty& pa = u_.shape[static_cast<std::size_t>(a)];
-      if (gradient[a] == 0.0) continue;
-      if (!std::isfinite(pa.u)) return std::numeric_limits<double>::quiet_NaN();
-      for (int b = 0; b < map.free; ++b) {
-        const ParameterUncertainty& pb = u_.shape[static_cast<std::size_t>(b)];
-        if (gradient[b] != 0.0 && pb.index >= 0)
-          variance += gradient[a] * gradient[b] * u_.covariance(pa.index, pb.index);
-      }
-    }
-    return std::sqrt(variance);
-  };
-  const auto state_of = [&](const Eigen::Vector2d& gradient) {
-    ParameterState state = ParameterState::fixed;
-    for (int a = 0; a < map.free; ++a) {
-      if (gradient[a] != 0.0 && state != ParameterState::undetermined)
-        state = u_.shape[static_cast<std::size_t>(a)].state;
-    }
-    return state;
-  };
-  const auto shape_row = [&](const std::string& name, double log_value, const Eigen::Vector2d& gradient, double lower,
-                             double upper) {
-    const double value = std::exp(log_value);
-    FittedParameter p = row(name, "", value, lower, upper, {state_of(gradient), value * log_u(gradient), -1});
-    if (p.fixed) p.u.reset();
-    // On a bound the value is the bound, not the exponential of its logarithm.
-    if (p.at_lower) p.value = lower;
-    if (p.at_upper) p.value = upper;
-    if (name != "slope") p.unit = "um";
-    return p;
-  };
-  const Eigen::Vector2d slope_gradient = map.map.row(0).transpose();
-  const auto bounds = [&](int z, double lower, double upper) {
-    if (z >= map.free) return std::pair(lower, upper);
-    return std::pair(map.lower_value[static_cast<std::size_t>(z)], map.upper_value[static_cast<std::size_t>(z)]);
-  };
-  const auto [slope_low, slope_high] = bounds(map.outer_moves_slope ? 0 : map.free, slope_min, slope_max);
-  const FittedParameter slope = shape_row("slope", log_shape[0], slope_gradient, slope_low, slope_high);
-  record(slope, slope.value.has_value());
-  out_.material.surface.slope = slope.value;
-
-  // sigma: fitted through coh, given, or from a given tau. tau from the two.
-  const bool through_coh = problem_.basis->shape_parameters().size() > 1;
-  const double infinity = std::numeric_limits<double>::infinity();
-  std::optional<double> log_sigma;
-  Eigen::Vector2d sigma_gradient = Eigen::Vector2d::Zero();
-  if (through_coh) {
-    log_sigma = log_shape[1];
-    sigma_gradient = map.map.row(1).transpose();
-  } else if (problem_.known_sigma_um) {
-    log_sigma = std::log(*problem_.known_sigma_um);
-  } else if (problem_.known_tau_um) {
-    log_sigma = std::log(*problem_.known_tau_um) + log_shape[0];
-    sigma_gradient = slope_gradient;
-  }
-  FittedParameter sigma = undetermined_length("sigma_um");
-  FittedParameter tau = undetermined_length("tau_um");
-  if (log_sigma && slope.value) {
-    const auto [low, high] = bounds(
-        through_coh && map.free > 0 && map.map(1, map.free - 1) == 1.0 && map.map(0, map.free - 1) == 0.0 ? map.free - 1
-                                                                                                          : 2,
-        0.0, infinity);
-    sigma = shape_row("sigma_um", *log_sigma, sigma_gradient, low, high);
-    tau = shape_row("tau_um", *log_sigma - log_shape[0], sigma_gradient - slope_gradient, 0.0, infinity);
-    // Rounding must not make the three contradict each other in the file.
-    if (problem_.known_sigma_um) sigma.value = problem_.known_sigma_um;
-    if (problem_.known_tau_um) tau.value = problem_.known_tau_um;
-    tau.derived = !problem_.known_tau_um;
-    sigma.derived = !through_coh && !problem_.known_sigma_um;
-    if (tau.derived || sigma.derived) tau.at_lower = tau.at_upper = false;
-    if (!sigma.value) tau.value.reset();
-  }
-  record(sigma, sigma.value.has_value());
-  record(tau, tau.value.has_value());
-  out_.material.surface.sigma_um = sigma.value;
-  out_.material.surface.tau_um = tau.value;
+  const ShapeRows rows = shape_rows(problem_, best_.point, u_);
+  for (const FittedParameter* p : {&rows.slope, &rows.sigma, &rows.tau}) record(*p, p->value.has_value());
+  out_.material.surface = {rows.slope.value, rows.sigma.value, rows.tau.value};
 }
 
 void Assembly::add_channel(std::size_t c) {
@@ -241,7 +137,7 @@ void Assembly::add_channel(std::size_t c) {
   if (problem_.free_optics != FreeOptics::none) {
     const std::string name = problem_.free_optics == FreeOptics::n ? "n" : "f0";
     const FittedParameter p =
-        row(name, from.name, best_.point.optics[c], from.optics_lower, from.optics_upper, u_.optics[c]);
+        parameter_row(name, from.name, best_.point.optics[c], from.optics_lower, from.optics_upper, u_.optics[c]);
     // An optical parameter that no coefficient makes visible stays where the search left it: it has no effect there.
     record(p, p.value.has_value());
   }
@@ -252,8 +148,8 @@ void Assembly::add_coefficient(std::size_t c, std::size_t column) {
   const auto j = static_cast<Eigen::Index>(column);
   const ProblemChannel& channel = problem_.channels[c];
   const Coefficient coefficient = problem_.basis->columns()[column].coefficient;
-  FittedParameter p = row(std::string(name_of(coefficient)), channel.name, best_.point.coefficients[c][j],
-                          channel.lower[j], channel.upper[j], u_.coefficients[c][column]);
+  FittedParameter p = parameter_row(std::string(name_of(coefficient)), channel.name, best_.point.coefficients[c][j],
+                                    channel.lower[j], channel.upper[j], u_.coefficients[c][column]);
   // A lobe whose width nobody can tell is no lobe whose strength anybody can.
   if (problem_.basis->columns()[column].reads_shape && !out_.material.surface.slope && p.value != 0.0) {
     p.value.reset();

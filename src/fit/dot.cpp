@@ -1,5 +1,7 @@
 #include "fit/dot.h"
 
+#include <array>
+
 #if defined(__GNUC__) && !defined(__clang__)
 #define GONIOFIT_CLONES __attribute__((target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4")))
 #else
@@ -12,7 +14,7 @@ namespace goniofit {
 // round-off than a plain loop's.
 GONIOFIT_CLONES double dot(const double* a, const double* b, std::size_t n) noexcept {
   constexpr std::size_t lanes = 32;
-  double partial[lanes] = {};
+  std::array<double, lanes> partial{};
   std::size_t i = 0;
   for (; i + lanes <= n; i += lanes) {
     for (std::size_t k = 0; k < lanes; ++k) partial[k] += a[i + k] * b[i + k];

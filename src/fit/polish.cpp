@@ -323,7 +323,7 @@ Polished polish(const Problem& problem, const FitPoint& start) {
 PolishOutcome polish_from(const Scan& scan, const FitSettings& settings, const Material& start) {
   const Problem problem(scan, settings);
   FitPoint point;
-  const double log_shape[2] = {std::log(*start.surface.slope), std::log(start.surface.sigma_um.value_or(1.0))};
+  const Eigen::Vector2d log_shape(std::log(*start.surface.slope), std::log(start.surface.sigma_um.value_or(1.0)));
   for (int z = 0; z < problem.shape.free; ++z) {
     const auto i = static_cast<std::size_t>(z);
     const bool is_slope = z == 0 && problem.shape.outer_moves_slope;

@@ -37,7 +37,7 @@ class Profile {
     double loss = 0.0, optics = 0.0;
   };
 
-  void add_group(std::size_t group);
+  void add_group(std::size_t index);
   [[nodiscard]] Eigen::MatrixXd weighted_optics(const ChannelOptics& optics, const PairBatch& pairs,
                                                 const Eigen::VectorXd& weight) const;
   void update_early(const Eigen::Vector2d& log_shape);

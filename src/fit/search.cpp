@@ -1,6 +1,7 @@
 #include "fit/search.h"
 
 #include <algorithm>
+#include <array>
 #include <boost/math/tools/minima.hpp>
 #include <cmath>
 #include <cstdint>
@@ -107,8 +108,8 @@ SearchOutcome search(const Problem& problem, std::size_t most) {
   for (const double a : outer) {
     if (inner.empty()) losses.push_back(profile.loss(&a));
     for (const double b : inner) {
-      const double z[2] = {a, b};
-      losses.push_back(profile.loss(z));
+      const std::array z{a, b};
+      losses.push_back(profile.loss(z.data()));
     }
   }
   std::vector<Cell> cells = local_minima(outer, inner, losses);
@@ -128,11 +129,6 @@ SearchOutcome search(const Problem& problem, std::size_t most) {
   minima.resize(std::min(minima.size(), most));
   outcome.evaluations = profile.evaluations();
   return outcome;
-}
-
-FitPoint solve_at(const Problem& problem, const std::vector<double>& z) {
-  Profile profile(problem);
-  return profile.point(z.data());
 }
 
 }  // namespace goniofit

@@ -28,7 +28,4 @@ struct SearchOutcome {
 /// are.
 [[nodiscard]] SearchOutcome search(const Problem& problem, std::size_t most = 3);
 
-/// The coefficients (and optics) that are best at the given shape.
-[[nodiscard]] FitPoint solve_at(const Problem& problem, const std::vector<double>& z);
-
 }  // namespace goniofit

@@ -32,7 +32,6 @@ struct Block {
 class Layout {
  public:
   Layout(const Problem& problem, const FitPoint& point, const Linearisation& l, Uncertainties& out);
-  [[nodiscard]] Block block(std::size_t channel, const Linearisation& l, const Uncertainties& u) const;
   Eigen::Index size = 0;
 
  private:
@@ -68,7 +67,8 @@ Layout::Layout(const Problem& problem, const FitPoint& point, const Linearisatio
   }
 }
 
-Block Layout::block(std::size_t channel, const Linearisation& l, const Uncertainties& u) const {
+// Its columns in the order that Layout placed them.
+Block block_of(std::size_t channel, const Linearisation& l, const Uncertainties& u) {
   Block b;
   std::vector<Eigen::VectorXd> columns;
   for (std::size_t z = 0; z < u.shape.size(); ++z) {
@@ -144,7 +144,7 @@ Uncertainties uncertainties(const Problem& problem, const FitPoint& point, const
   std::vector<Block> blocks;
   Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(layout.size, layout.size);
   for (std::size_t c = 0; c < problem.channels.size(); ++c) {
-    const Block& b = blocks.emplace_back(layout.block(c, l, out));
+    const Block& b = blocks.emplace_back(block_of(c, l, out));
     scatter_add(b.jacobian.transpose() * b.jacobian, b.index, normal);
   }
   Eigen::MatrixXd bread;

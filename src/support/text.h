@@ -1,6 +1,7 @@
 #pragma once
 // Small pieces of the sentences that error messages are made of.
 
+#include <array>
 #include <charconv>
 #include <cstddef>
 #include <string>
@@ -23,9 +24,9 @@ template <class Range>
 
 /// The shortest decimal that reads back as the same double.
 [[nodiscard]] inline std::string shortest(double value) {
-  char buffer[32];
-  const std::to_chars_result end = std::to_chars(buffer, buffer + sizeof buffer, value);
-  return {buffer, end.ptr};
+  std::array<char, 32> buffer{};
+  const std::to_chars_result end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
+  return {buffer.data(), end.ptr};
 }
 
 /// Text of a file in quotes, fit for one line of a terminal: control characters become '?', a long text is cut.

@@ -121,7 +121,7 @@ void Problem::choose_optics(const Scan& scan, const FitSettings& settings) {
       // dielectric under 1 would be the other side of the interface.
       const double k = to.optics.kappa;
       const double branch = terms.fresnel == FresnelTier::schlick || k == 0.0 ? std::sqrt(1.0 + k * k) : 0.05;
-      const double top = std::max(10.0, 4.0 * branch);
+      const double top = k == 0.0 ? 10.0 : n_max;
       std::tie(to.optics_lower, to.optics_upper) = interval_of(setting_of(settings, "n", to.name), "n", branch, top);
     }
   }

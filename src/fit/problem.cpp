@@ -7,6 +7,7 @@
 
 #include "fit/fit.h"
 #include "fit/parameter_settings.h"
+#include "fit/surface_basis.h"
 #include "support/error.h"
 
 namespace goniofit {

@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
+#include "../brdf/basis.h"
 #include "../brdf/optics.h"
 #include "../scan/scan.h"
 #include "bounded_least_squares.h"
 #include "settings.h"
-#include "surface_basis.h"
 
 namespace goniofit {
 
@@ -69,7 +69,7 @@ class Problem {
   double solid_angle_sr;
   FreeOptics free_optics;
   Weight weighting;
-  std::unique_ptr<SurfaceBasis> basis;
+  std::unique_ptr<const Basis> basis;  ///< the model, of which a fit knows no more than its columns
   ShapeMap shape;
   std::optional<double> known_sigma_um, known_tau_um;  ///< fixed by the user
 

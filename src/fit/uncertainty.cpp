@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -43,8 +44,10 @@ class Layout {
 
 Layout::Layout(const Problem& problem, const FitPoint& point, const Linearisation& l, Uncertainties& out) {
   // A change of the shape by a factor e that alters the whole scan by less than the residual of one reading: nobody
-  // could tell it from no change.
-  const double noise2 = l.loss / static_cast<double>(problem.samples() * problem.channels.size());
+  // could tell it from no change. Noise-free scans have no residual; what they hold is then known to 1e-8 of their
+  // signal.
+  const double noise2 =
+      std::max(l.loss, 1e-16 * problem.total) / static_cast<double>(problem.samples() * problem.channels.size());
   for (std::size_t z = 0; z < point.z.size(); ++z) {
     double column2 = 0.0;
     for (const Eigen::MatrixXd& shape : l.by_shape) column2 += shape.col(static_cast<Eigen::Index>(z)).squaredNorm();

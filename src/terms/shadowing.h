@@ -8,8 +8,7 @@
 
 namespace goniofit {
 
-/// Tier `li-torrance` (LT (6)): S1(c) = 1 - (1 - c)^q, q = tau/sigma, as -expm1(q ln(1 - c)). Differs from Smith's by
-/// 0.5 to 5 % on average, 12.8 % at most.
+/// Tier `li-torrance` (LT (6)): S1(c) = 1 - (1 - c)^q, q = tau/sigma, as -expm1(q ln(1 - c)).
 template <class T, class G, class Floor = math::NoFloor>
 [[nodiscard]] [[gnu::always_inline]] inline T shadowing_li_torrance(const T& q, const G& log_one_minus_c,
                                                                     Floor floor = {}) {

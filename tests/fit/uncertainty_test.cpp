@@ -50,7 +50,7 @@ TEST(Uncertainty, IsTheSandwichOfTheWholeJacobian) {
   }
 }
 
-TEST(Uncertainty, HasNoneOnABoundAndNoneWhereNothingIsSeen) {
+TEST(Uncertainty, HasNoneWhereFixed) {
   const Material truth = test::garnet_red_paint_13();  // k_uds of G and B are 0
   const Scan scan = simulate(truth, Sampling::hemisphere, {0.0, 0.0}, 4);
   FitSettings s = settings_for(truth);

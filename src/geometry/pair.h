@@ -36,7 +36,12 @@ struct BasicPair {
   Real mirror_distance2;  ///< |V - mirror(L)|²
   Real tan2_f;            ///< LT's theta_f for fs; meaningful where forward
   Real tan2_f_swapped;    ///< the same with L and V exchanged
-  bool forward;           ///< cos theta_f > 0: V on the mirror side of the plane through N normal to L_h
+  Real dot_h;             ///< L_h · V_h of the horizontal parts: positive on the retro side
+  // What an anisotropic surface reads besides, in its own frame (x is azimuth 0).
+  Real s_x2, s_y2;              ///< s_x², s_y², each to the accuracy of their sum
+  Real cos2_phi_i, sin2_phi_i;  ///< of the azimuth of L
+  Real cos2_phi_r, sin2_phi_r;  ///< of the azimuth of V
+  bool forward;                 ///< cos theta_f > 0: V on the mirror side of the plane through N normal to L_h
 };
 
 /// ln 0, written as a finite number: exp(q * log_of_zero) is exactly 0 for every q >= 0.1 and its derivative is 0
@@ -77,12 +82,20 @@ class PairBatch {
             mirror_distance2[i],
             tan2_f[i],
             tan2_f_swapped[i],
+            dot_h[i],
+            s_x2[i],
+            s_y2[i],
+            cos2_phi_i[i],
+            sin2_phi_i[i],
+            cos2_phi_r[i],
+            sin2_phi_r[i],
             forward[i] != 0.0};
   }
   [[nodiscard]] PairBatch subset(const std::vector<std::size_t>& rows) const;
 
   std::vector<double> cos_i, cos_r, one_minus_cos_i, one_minus_cos_r, log_one_minus_cos_i, log_one_minus_cos_r, s_z,
-      s_h2, cos_h, one_minus_cos_h, tan2_b, mirror_distance2, tan2_f, tan2_f_swapped;
+      s_h2, cos_h, one_minus_cos_h, tan2_b, mirror_distance2, tan2_f, tan2_f_swapped, dot_h, s_x2, s_y2, cos2_phi_i,
+      sin2_phi_i, cos2_phi_r, sin2_phi_r;
   std::vector<double> forward;  ///< 1 or 0
 };
 

@@ -7,8 +7,11 @@
 
 namespace goniofit::math {
 
+using std::atan;
+using std::erfc;
 using std::exp;
 using std::expm1;
+using std::floor;
 using std::log;
 using std::log1p;
 using std::sqrt;
@@ -17,6 +20,16 @@ using std::sqrt;
 template <class T>
 [[gnu::always_inline]] inline T select(bool condition, const T& yes, const T& no) {
   return condition ? yes : no;
+}
+
+/// pi and its square root, as sums of doubles that carry 64 digits: a wide type gets them all, double its nearest.
+template <class T>
+[[nodiscard]] [[gnu::always_inline]] inline T pi_of() {
+  return T(-2.9947698097183397e-33) + 1.1124542208633653e-49 + 1.2246467991473532e-16 + 3.1415926535897931;
+}
+template <class T>
+[[nodiscard]] [[gnu::always_inline]] inline T root_pi_of() {
+  return T(-1.3058334907945429e-33) - 2.6110142087827155e-50 - 7.6665864998257987e-17 + 1.7724538509055161;
 }
 
 /// x⁵ by three products.

@@ -2,6 +2,7 @@
 // The slope distribution D in LT's normalisation, D = (pi/4) D_Beckmann(alpha = 2 m_e).
 
 #include "../geometry/pair.h"
+#include "log1p_ratio.h"
 #include "scalar.h"
 
 namespace goniofit {
@@ -21,6 +22,33 @@ template <class T, class G>
 template <class T, class G>
 [[nodiscard]] [[gnu::always_inline]] inline T rough_limit_log(const T& log_m_e, const BasicPair<G>& p) {
   return -2.0 * log_m_e - 0.25 * over_m_e2(p.tan2_b, log_m_e);
+}
+
+/// Tier `student-t` (Ribardière et al. 2017), D = (γ-1)^γ α^(2γ-2) / (π cos⁴θ_b ((γ-1)α² + tan²θ_b)^γ) with α = 2 m_e
+/// and the tail γ > 1: what stands for exp(-y) of tier `rough-limit`, y = tan²θ_b/(4 m_e²), is (1 + y/(γ-1))^-γ.
+/// Returns its logarithm -γ ln(1 + y/(γ-1)): Beckmann's -y as γ grows, and GGX at γ = 2. Right to 3 eps, and smooth,
+/// for γ - 1 from 1e-6 to 1e12 and y from 0 to 1e300.
+template <class T>
+[[nodiscard]] [[gnu::always_inline]] inline T student_t_exponent(const T& y, const T& tail) {
+  const T n = tail - 1.0;
+  return -(1.0 + 1.0 / n) * scaled_log1p(y, n);
+}
+
+/// The same of y e^growth. With growth = ln(sigma²/sigma_e²) that leaves the range of doubles towards grazing, while D,
+/// which falls with its γth power only, may still be of the order of 1. From e^600 y on (y > 1e-36 where it is not 0)
+/// the 1 no longer counts, and what goes beyond is added to the logarithm.
+template <class T>
+[[nodiscard]] [[gnu::always_inline]] inline T student_t_exponent(const T& y, const T& growth, const T& tail) {
+  using namespace math;
+  const T within = select(growth < 600.0, growth, T(600.0));
+  const T beyond = select(y > 0.0, T(growth - within), T(0.0));
+  return student_t_exponent(T(y * exp(within)), tail) - tail * beyond;
+}
+
+/// ln D of tier `student-t`, without slope_independent_factor as above.
+template <class T, class G>
+[[nodiscard]] [[gnu::always_inline]] inline T student_t_log(const T& log_m_e, const T& tail, const BasicPair<G>& p) {
+  return -2.0 * log_m_e + student_t_exponent(T(0.25 * over_m_e2(p.tan2_b, log_m_e)), tail);
 }
 
 /// (|s|²/s_z)²/(16 s_z²) = (1 + tan²θ_b)²/16.

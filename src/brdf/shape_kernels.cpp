@@ -29,7 +29,7 @@ void choose(const PairBatch& pairs, FsForm form, double log_slope, double floor,
 void shape_columns(const PairBatch& pairs, const ShapeSettings& settings, double log_slope, double* dd, double* fs) {
   if (dd == nullptr && fs == nullptr) return;
   with_tiers(settings, [&]<ShadowingTier shadowing, EffectiveRoughnessTier roughness>() {
-    choose<shadowing, roughness>(pairs, settings.fs_form, log_slope, exponent_floor, dd, fs);
+    choose<shadowing, roughness>(pairs, settings.forms.fs, log_slope, exponent_floor, dd, fs);
   });
 }
 

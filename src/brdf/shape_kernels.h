@@ -1,24 +1,22 @@
 #pragma once
-// The shape factors of dd and fs for a whole batch of directions: what a fit computes at each point of its search. The
-// loop is a template on the scalar, instantiated for double here and for a dual number in fit/, and vectorised by the
-// compiler with the C library's vector functions (relative error a few 1e-16; the scalar Evaluator is the reference).
+// The shape factors of dd and fs for a whole batch of directions, isotropic and with the tiers as published: what most
+// fits compute at each point of their search. The loop is surface_shape.h's, instantiated for double here and for a
+// dual number in fit/, and vectorised by the compiler with the C library's vector functions (relative error a few
+// 1e-16; the scalar Evaluator is the reference).
 
-#include "effects.h"
+#include "surface_shape.h"
 
 namespace goniofit {
 
-/// Which tiers and forms a batch is evaluated with.
-struct ShapeSettings {
-  ShadowingTier shadowing = ShadowingTier::li_torrance;
-  EffectiveRoughnessTier effective_roughness = EffectiveRoughnessTier::li_torrance;
-  FsForm fs_form = FsForm::printed;
+/// Whether these kernels have the tiers: each further one doubles what there is to compile.
+[[nodiscard]] constexpr bool has_kernel(const ShapeSettings& s) noexcept {
+  const bool shadowing = s.shadowing == ShadowingTier::li_torrance || s.shadowing == ShadowingTier::none;
+  const bool roughness = s.effective_roughness == EffectiveRoughnessTier::li_torrance ||
+                         s.effective_roughness == EffectiveRoughnessTier::none;
+  return shadowing && roughness && s.distribution == DistributionTier::rough_limit && !s.anisotropic;
+}
 
-  [[nodiscard]] static ShapeSettings of(const Terms& terms, FsForm form) noexcept {
-    return {terms.shadowing, terms.effective_roughness, form};
-  }
-};
-
-/// Calls f.template operator()<shadowing, roughness>() with the tiers as compile-time constants.
+/// Calls f.template operator()<shadowing, roughness>() with the tiers as compile-time constants; of such as has_kernel.
 template <class F>
 void with_tiers(const ShapeSettings& s, const F& f) {
   using enum EffectiveRoughnessTier;
@@ -34,7 +32,7 @@ void with_tiers(const ShapeSettings& s, const F& f) {
 extern const double exponent_floor;
 
 /// dd[i], fs[i] = shape factors at pairs[i]; either pointer may be null. Directions with a cosine <= 0 are the caller's
-/// to leave out.
+/// to leave out. Precondition: has_kernel(settings).
 void shape_columns(const PairBatch& pairs, const ShapeSettings& settings, double log_slope, double* dd, double* fs);
 
 }  // namespace goniofit

@@ -4,6 +4,8 @@
 #if defined(__GNUC__) && !defined(__clang__)
 // Tells the compiler that the C library has vector versions of these (libmvec, glibc 2.35).
 extern "C" {
+__attribute__((simd("notinbranch"))) double asin(double) noexcept;
+__attribute__((simd("notinbranch"))) double erfc(double) noexcept;
 __attribute__((simd("notinbranch"))) double exp(double) noexcept;
 __attribute__((simd("notinbranch"))) double expm1(double) noexcept;
 __attribute__((simd("notinbranch"))) double log(double) noexcept;
@@ -31,16 +33,16 @@ enum class Want { dd, fs, both };
 template <ShadowingTier shadowing, EffectiveRoughnessTier roughness, FsForm form, Want want, class T, class Sink>
 [[gnu::always_inline]] inline void run(const PairBatch& pairs, const T& log_slope, double floor_bound, const Sink& dd,
                                        const Sink& fs) {
-  using namespace math;
+  constexpr ShapeSettings settings{.shadowing = shadowing, .effective_roughness = roughness, .forms = {.fs = form}};
   const math::FloorAt floor{floor_bound};
-  const T q = exp(-log_slope);
+  const SurfaceParameters<T> surface{.log_slope = log_slope};
   const std::size_t n = pairs.size();
 #pragma GCC ivdep
   for (std::size_t i = 0; i < n; ++i) {
     const Pair p = pairs[i];
-    const SurfaceTerms<T> t = surface_terms<shadowing, roughness>(log_slope, q, p, floor);
-    if constexpr (want != Want::fs) dd.put(i, dd_shape(t, p, floor));
-    if constexpr (want != Want::dd) fs.put(i, fs_shape<form>(t, p, floor));
+    const SurfaceTerms<T> t = surface_terms(settings, surface, p, floor);
+    if constexpr (want != Want::fs) dd.put(i, dd_shape(settings, surface, t, 1.0, p, floor));
+    if constexpr (want != Want::dd) fs.put(i, fs_shape(settings, surface, t, p, floor));
   }
 }
 

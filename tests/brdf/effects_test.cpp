@@ -1,11 +1,10 @@
-#include "brdf/effects.h"
-
 #include <gtest/gtest.h>
 
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <cmath>
 
 #include "brdf/evaluator.h"
+#include "geometry/angles.h"
 #include "support/materials.h"
 
 namespace goniofit {
@@ -115,7 +114,7 @@ TEST(Effects, PrintedForwardScatterIsNotReciprocalAndTheOtherFormIs) {
   };
   const double printed = worst_violation(m);
   EXPECT_NEAR(printed, 0.86, 0.02);
-  m.fs_form = FsForm::reciprocal;
+  m.forms.fs = FsForm::reciprocal;
   EXPECT_LT(worst_violation(m), 1e-13);
 }
 

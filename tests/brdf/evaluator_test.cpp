@@ -52,15 +52,15 @@ TEST(Evaluator, BatchKernelAgreesWithScalar) {
   std::vector<double> fs(pairs.size());
   for (const double slope : {1e-4, 1e-3, 0.011, 0.172, 0.6, 10.0}) {
     for (const FsForm form : {FsForm::printed, FsForm::reciprocal}) {
-      shape_columns(pairs, {ShadowingTier::li_torrance, EffectiveRoughnessTier::li_torrance, form}, std::log(slope),
-                    dd.data(), fs.data());
+      ShapeSettings settings;
+      settings.forms.fs = form;
+      const SurfaceParameters<double> surface{.log_slope = std::log(slope)};
+      shape_columns(pairs, settings, surface.log_slope, dd.data(), fs.data());
       for (std::size_t i = 0; i < pairs.size(); ++i) {
         const Pair p = pairs[i];
-        const auto t = surface_terms<ShadowingTier::li_torrance, EffectiveRoughnessTier::li_torrance>(std::log(slope),
-                                                                                                      1.0 / slope, p);
-        const double dd_scalar = dd_shape(t, p);
-        const double fs_scalar =
-            form == FsForm::printed ? fs_shape<FsForm::printed>(t, p) : fs_shape<FsForm::reciprocal>(t, p);
+        const SurfaceTerms<double> t = surface_terms(settings, surface, p);
+        const double dd_scalar = dd_shape(settings, surface, t, 1.0, p);
+        const double fs_scalar = fs_shape(settings, surface, t, p);
         // Below 1e-290 the batch's floored exponentials differ; both are zero for any purpose.
         const auto close = [](double a, double b) {
           return std::fabs(a - b) <= 1e-12 * (1.0 + std::fabs(std::log(b))) * b || (a < 1e-290 && b < 1e-290);

@@ -16,21 +16,15 @@ namespace goniofit {
 namespace {
 
 using test::error_message;
-
-// Of which, as a fit without coh gives it, only the slope is known.
-Material garnet_red_paint() {
-  Material m = test::garnet_red_paint_13();
-  m.surface = {m.surface.slope, std::nullopt, std::nullopt};
-  return m;
-}
+using test::garnet_by_slope;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 template <class E>
 class Names : public testing::Test {};
-using Enumerations =
-    testing::Types<Effect, Coefficient, FresnelTier, ShadowingTier, EffectiveRoughnessTier, DistributionTier, FsForm>;
+using Enumerations = testing::Types<Effect, Coefficient, FresnelTier, ShadowingTier, EffectiveRoughnessTier,
+                                    DistributionTier, FsForm, RoughForm, AnisotropyForm>;
 TYPED_TEST_SUITE(Names, Enumerations);
 
 TYPED_TEST(Names, EveryOfferedNameParsesToItself) {
@@ -46,13 +40,13 @@ TYPED_TEST(Names, EveryOfferedNameParsesToItself) {
   }
   EXPECT_GT(count, 0U);
   EXPECT_FALSE(parse_name<TypeParam>(""));
-  EXPECT_FALSE(parse_name<TypeParam>("smith"));
+  EXPECT_FALSE(parse_name<TypeParam>("Smith"));
 }
 
 TEST(NamesOf, ReadAsASentence) {
-  EXPECT_EQ(names_of<Effect>(), "coh, dd, udf, uds or fs");
-  EXPECT_EQ(names_of<ShadowingTier>(), "li-torrance or none");
-  EXPECT_EQ(names_of<DistributionTier>(), "rough-limit");
+  EXPECT_EQ(names_of<Effect>(), "coh, dd, udf, uds, fs or rough");
+  EXPECT_EQ(names_of<ShadowingTier>(), "li-torrance, smith, schlick or none");
+  EXPECT_EQ(names_of<DistributionTier>(), "rough-limit, he-torrance, he-torrance-series or student-t");
 }
 
 TEST(CoefficientOf, CohAndDdShareOne) {
@@ -61,6 +55,7 @@ TEST(CoefficientOf, CohAndDdShareOne) {
   EXPECT_EQ(coefficient_of(Effect::udf), Coefficient::k_udf);
   EXPECT_EQ(coefficient_of(Effect::uds), Coefficient::k_uds);
   EXPECT_EQ(coefficient_of(Effect::fs), Coefficient::k_fs);
+  EXPECT_EQ(coefficient_of(Effect::rough), Coefficient::rho);
 }
 
 TEST(NormalReflectance, ClosedForms) {
@@ -95,12 +90,16 @@ std::string case_name(const testing::TestParamInfo<Case>& tested) { return teste
 class Rejected : public testing::TestWithParam<Case> {};
 
 TEST_P(Rejected, ByKeyAndConstraint) {
-  Material m = garnet_red_paint();
+  Material m = garnet_by_slope();
   GetParam().change(m);
   EXPECT_EQ(error_message([&] { validate(m, "m.json"); }), "2 m.json: " + GetParam().message);
 }
 
-double& coefficient(Material& m, Coefficient c) { return *m.channels[1].coefficient(c); }
+double& coefficient(Material& m, Coefficient c) {
+  std::optional<double>& k = m.channels[1].coefficient(c);
+  if (!k) k = 0.0;
+  return *k;
+}
 
 const std::string slope_range = "expected a number in [1e-06, 10]";
 const std::string length = "expected a finite number above 0";
@@ -109,7 +108,7 @@ const std::string not_given = "is not given, expected a number: ";
 
 const std::vector<Case> rejected{
     {"NoEffect", [](Material& m) { m.components = {}; },
-     "/components: no effect is named, expected at least one of coh, dd, udf, uds or fs"},
+     "/components: no effect is named, expected at least one of coh, dd, udf, uds, fs or rough"},
     {"NoChannel", [](Material& m) { m.channels.clear(); }, "/channels: has no channel, expected at least one"},
     {"UnnamedChannel", [](Material& m) { m.channels[2].name = ""; },
      "/channels/2/name: is empty, expected the channel's name"},
@@ -128,7 +127,8 @@ const std::vector<Case> rejected{
     {"TauInfinite", [](Material& m) { m.surface.tau_um = infinity; }, "/surface/tau_um: is inf, " + length},
     {"SlopeDisagrees",
      [](Material& m) {
-       m.surface = {0.1000002, 0.5, 5.0};
+       m.surface = test::surface(0.5, 5.0);
+       m.surface.slope = 0.1000002;
      },
      "/surface/slope: is 0.1000002, expected sigma_um / tau_um = 0.1 within 1e-6 of itself"},
     {"SolidAngleZero", [](Material& m) { m.solid_angle_sr = 0.0; },
@@ -175,6 +175,50 @@ const std::vector<Case> rejected{
        m.channels[1].wavelength_um.reset();
      },
      "/channels/1/wavelength_um: " + not_given + "coh reads it"},
+    {"SlopeYTooLarge", [](Material& m) { m.surface.slope_y = 11.0; }, "/surface/slope_y: is 11, " + slope_range},
+    {"TauYAlone", [](Material& m) { m.surface.tau_y_um = 4.0; },
+     "/surface/slope_y: is not given though tau_y_um is, expected both"},
+    {"SlopeYDisagrees",
+     [](Material& m) {
+       m.surface = test::surface(0.5, 5.0);
+       m.surface.slope_y = 0.2;
+       m.surface.tau_y_um = 5.0;
+     },
+     "/surface/slope_y: is 0.2, expected sigma_um / tau_y_um = 0.1 within 1e-6 of itself"},
+    {"TailOne", [](Material& m) { m.surface.tail = 1.0; }, "/surface/tail: is 1, expected a finite number above 1"},
+    {"TailInfinite", [](Material& m) { m.surface.tail = infinity; },
+     "/surface/tail: is inf, expected a finite number above 1"},
+    {"TailMissing", [](Material& m) { m.terms.distribution = DistributionTier::student_t; },
+     "/surface/tail: " + not_given + "distribution student-t reads it"},
+    {"TailTooLongForSmith",
+     [](Material& m) {
+       m.terms.distribution = DistributionTier::student_t;
+       m.terms.shadowing = ShadowingTier::smith;
+       m.surface.tail = 1.5;
+     },
+     "/surface/tail: is 1.5, expected a number above 1.5 with shadowing smith: a longer tail has no mean slope, and "
+     "such a surface shadows itself entirely"},
+    {"FacetSlopeTooSteep", [](Material& m) { m.surface.facet_slope_deg = 81.0; },
+     "/surface/facet_slope_deg: is 81, expected a number in [0, 80]"},
+    {"FacetSlopeMissing",
+     [](Material& m) {
+       m.components.insert(Effect::rough);
+       coefficient(m, Coefficient::rho) = 0.5;
+     },
+     "/surface/facet_slope_deg: " + not_given + "rough reads it"},
+    {"WaveWithoutSigma", [](Material& m) { m.terms.distribution = DistributionTier::he_torrance; },
+     "/surface/sigma_um: " + not_given + "distribution he-torrance reads it"},
+    {"WaveWithoutWavelength",
+     [](Material& m) {
+       m.terms.distribution = DistributionTier::he_torrance_series;
+       m.surface.sigma_um = 0.7;
+       m.channels[1].wavelength_um.reset();
+     },
+     "/channels/1/wavelength_um: " + not_given + "distribution he-torrance reads it"},
+    {"UnknownModel", [](Material& m) { m.model = "phong"; },
+     "/model: \"phong\" is no model, expected one that `goniofit models` names"},
+    {"ComponentsOfAPeer", [](Material& m) { m.model = "lambert"; },
+     "/components: are named though the model is lambert, which has no effects"},
     {"LossInfinite",
      [](Material& m) {
        m.fit.emplace();
@@ -198,23 +242,69 @@ const std::vector<Case> rejected{
        m.fit.emplace();
        m.fit->channel_uncertainty["R"]["k"] = 1.0;
      },
-     "/fit/uncertainty/R/k: is not a parameter of a channel, expected k_dd, k_udf, k_uds, k_fs, n or f0"},
+     "/fit/uncertainty/R/k: is not a parameter of a channel, expected k_dd, k_udf, k_uds, k_fs, rho, n or f0"},
     {"IdentifiableOfNothing",
      [](Material& m) {
        m.fit.emplace();
        m.fit->identifiable["X.k_dd"] = true;
      },
-     "/fit/identifiable/X.k_dd: is not a shared parameter, expected slope, sigma_um or tau_um, or CHANNEL.PARAMETER, "
-     "such "
-     "as R.k_dd"},
+     "/fit/identifiable/X.k_dd: is not a shared parameter, expected slope, sigma_um, tau_um, slope_y, tau_y_um, tail "
+     "or "
+     "facet_slope_deg, or CHANNEL.PARAMETER, such as R.k_dd"},
 };
 
 INSTANTIATE_TEST_SUITE_P(Validate, Rejected, testing::ValuesIn(rejected), case_name);
 
+class RejectedPeer : public testing::TestWithParam<Case> {};
+
+TEST_P(RejectedPeer, ByKeyAndConstraint) {
+  Material m = test::anisotropic_ggx();
+  ASSERT_EQ(error_message([&] { validate(m, "m.json"); }), "no error") << "what the cases differ from";
+  GetParam().change(m);
+  EXPECT_EQ(error_message([&] { validate(m, "m.json"); }), "2 m.json: " + GetParam().message);
+}
+
+const std::vector<Case> rejected_peers{
+    {"ParameterMissing", [](Material& m) { m.parameters.erase("alpha_y"); },
+     "/parameters/alpha_y: is not given, expected a number: ggx-anisotropic reads it"},
+    {"ParameterNull", [](Material& m) { m.parameters["alpha_x"].reset(); },
+     "/parameters/alpha_x: is not given, expected a number: ggx-anisotropic reads it"},
+    {"ParameterOutOfRange", [](Material& m) { m.parameters["alpha_x"] = 3.0; },
+     "/parameters/alpha_x: is 3, expected a number in [0.001, 2]"},
+    {"ParameterOfAnotherModel", [](Material& m) { m.parameters["alpha"] = 0.1; },
+     "/parameters/alpha: is not a parameter of ggx-anisotropic"},
+    {"CoefficientOfAnotherModel", [](Material& m) { m.channels[1].peer_k["C"] = 0.1; },
+     "/channels/1/C: is not a coefficient of ggx-anisotropic"},
+    {"CoefficientNegative", [](Material& m) { m.channels[1].peer_k["k_s"] = -1.0; },
+     "/channels/1/k_s: is -1, " + amount},
+    {"NoOptics",
+     [](Material& m) {
+       m.channels[0].n.reset();
+       m.channels[0].kappa.reset();
+     },
+     "/channels/0/n: is not given, expected n (and kappa) or f0: ggx-anisotropic reads it"},
+    {"ChannelNamedAsAParameter", [](Material& m) { m.channels[0].name = "alpha_x"; },
+     "/channels/0/name: \"alpha_x\" is the name of a parameter, expected another name"},
+    {"UncertaintyOfTheSurface",
+     [](Material& m) {
+       m.fit.emplace();
+       m.fit->shared_uncertainty["slope"] = 0.1;
+     },
+     "/fit/uncertainty/slope: is not a shared parameter, expected alpha_x or alpha_y, or the object of a channel"},
+    {"UncertaintyOfNoCoefficient",
+     [](Material& m) {
+       m.fit.emplace();
+       m.fit->channel_uncertainty["R"]["k_dd"] = 0.1;
+     },
+     "/fit/uncertainty/R/k_dd: is not a parameter of a channel, expected k_d, k_s, n or f0"},
+};
+
+INSTANTIATE_TEST_SUITE_P(Validate, RejectedPeer, testing::ValuesIn(rejected_peers), case_name);
+
 class Accepted : public testing::TestWithParam<Case> {};
 
 TEST_P(Accepted, WithoutAWord) {
-  Material m = garnet_red_paint();
+  Material m = garnet_by_slope();
   GetParam().change(m);
   EXPECT_EQ(error_message([&] { validate(m, "m.json"); }), "no error");
 }
@@ -228,7 +318,8 @@ const std::vector<Case> accepted{
     {"CoefficientAboveOne", [](Material& m) { coefficient(m, Coefficient::k_uds) = 7.0; }, ""},
     {"SlopeWithinTolerance",
      [](Material& m) {
-       m.surface = {0.1 * (1.0 + 9e-7), 0.5, 5.0};
+       m.surface = test::surface(0.5, 5.0);
+       m.surface.slope = 0.1 * (1.0 + 9e-7);
      },
      ""},
     {"SigmaWithoutTau", [](Material& m) { m.surface.sigma_um = 0.7; }, ""},
@@ -277,6 +368,36 @@ const std::vector<Case> accepted{
        m.surface.sigma_um = 0.7;
      },
      ""},
+    {"Anisotropic",
+     [](Material& m) {
+       m.surface = test::surface(0.5, 5.0);
+       m.surface.slope_y = 0.25;
+       m.surface.tau_y_um = 2.0;
+     },
+     ""},
+    {"TailAboveThreeHalvesWithSmith",
+     [](Material& m) {
+       m.terms.distribution = DistributionTier::student_t;
+       m.terms.shadowing = ShadowingTier::smith;
+       m.surface.tail = 1.6;
+     },
+     ""},
+    {"FlatGrooves",
+     [](Material& m) {
+       m.components = {Effect::rough};
+       m.surface = {};
+       m.surface.facet_slope_deg = 0.0;
+       for (MaterialChannel& c : m.channels) c.coefficient(Coefficient::rho) = 0.5;
+     },
+     ""},
+    // Without a lobe nothing reads the widths.
+    {"PeerOfUnknownShape",
+     [](Material& m) {
+       m = test::anisotropic_ggx();
+       m.parameters.clear();
+       for (MaterialChannel& c : m.channels) c.peer_k["k_s"].reset();
+     },
+     ""},
     {"ChannelNameWithDot",
      [](Material& m) {
        m.channels[0].name = "0.65um";
@@ -289,7 +410,7 @@ const std::vector<Case> accepted{
 INSTANTIATE_TEST_SUITE_P(Validate, Accepted, testing::ValuesIn(accepted), case_name);
 
 TEST(Validate, WithoutAFileNamesTheKeyAlone) {
-  Material m = garnet_red_paint();
+  Material m = garnet_by_slope();
   m.channels.clear();
   EXPECT_EQ(error_message([&] { validate(m, ""); }), "2 /channels: has no channel, expected at least one");
 }

@@ -7,9 +7,11 @@
 #include <map>
 #include <sstream>
 
+#include "brdf/rough_shape.h"
 #include "fit/model.h"
 #include "fit/shape_rows.h"
 #include "fit/uncertainty.h"
+#include "geometry/angles.h"
 
 namespace goniofit {
 
@@ -53,9 +55,12 @@ class Assembly {
   void add_totals();
   void add_shape();
   void add_channel(std::size_t c);
-  void add_coefficient(std::size_t c, std::size_t column);
+  void add_coefficient(std::size_t c, std::size_t coefficient);
+  [[nodiscard]] bool is_lobe(std::size_t coefficient) const;
   void add_warnings();
   void warn_of_surface();
+  void warn_of_peer();
+  void leave_out_undetermined();
   void record(const FittedParameter& p, bool identifiable);
 
   const Problem& problem_;
@@ -70,9 +75,10 @@ class Assembly {
 FitResult Assembly::result() {
   Material& m = out_.material;
   m.name = scan_.name;
+  m.model = problem_.model;
   m.components = problem_.components;
   m.terms = problem_.terms;
-  m.fs_form = problem_.fs_form;
+  m.forms = problem_.forms;
   m.solid_angle_sr = problem_.solid_angle_sr;
   out_.notes = problem_.notes;
   out_.warnings = problem_.warnings;
@@ -116,9 +122,15 @@ void Assembly::record(const FittedParameter& p, bool identifiable) {
 }
 
 void Assembly::add_shape() {
-  const ShapeRows rows = shape_rows(problem_, best_.point, u_);
-  for (const FittedParameter* p : {&rows.slope, &rows.sigma, &rows.tau}) record(*p, p->value.has_value());
-  out_.material.surface = {rows.slope.value, rows.sigma.value, rows.tau.value};
+  Material& m = out_.material;
+  for (const FittedParameter& p : shape_rows(problem_, best_.point, u_)) {
+    record(p, p.value.has_value());
+    if (problem_.model == surface_model) {
+      *m.surface.find(p.name) = p.value;
+    } else {
+      m.parameters[p.name] = p.value;
+    }
+  }
 }
 
 void Assembly::add_channel(std::size_t c) {
@@ -141,17 +153,28 @@ void Assembly::add_channel(std::size_t c) {
     // An optical parameter that no coefficient makes visible stays where the search left it: it has no effect there.
     record(p, p.value.has_value());
   }
-  for (std::size_t j = 0; j < problem_.basis->columns().size(); ++j) add_coefficient(c, j);
+  for (std::size_t j = 0; j < problem_.basis->coefficients().size(); ++j) {
+    if (!problem_.basis->coefficients()[j].constant()) add_coefficient(c, j);
+  }
 }
 
-void Assembly::add_coefficient(std::size_t c, std::size_t column) {
-  const auto j = static_cast<Eigen::Index>(column);
+// Whether all columns of a coefficient read the shape.
+bool Assembly::is_lobe(std::size_t coefficient) const {
+  const std::vector<BasisColumn>& columns = problem_.basis->columns();
+  return std::all_of(columns.begin(), columns.end(),
+                     [&](const BasisColumn& c) { return c.coefficient != coefficient || c.reads_shape; });
+}
+
+void Assembly::add_coefficient(std::size_t c, std::size_t coefficient) {
+  const auto j = static_cast<Eigen::Index>(coefficient);
   const ProblemChannel& channel = problem_.channels[c];
-  const Coefficient coefficient = problem_.basis->columns()[column].coefficient;
-  FittedParameter p = parameter_row(std::string(name_of(coefficient)), channel.name, best_.point.coefficients[c][j],
-                                    channel.lower[j], channel.upper[j], u_.coefficients[c][column]);
-  // A lobe whose width nobody can tell is no lobe whose strength anybody can.
-  if (problem_.basis->columns()[column].reads_shape && !out_.material.surface.slope && p.value != 0.0) {
+  const std::string& name = problem_.basis->coefficients()[coefficient].name;
+  FittedParameter p = parameter_row(name, channel.name, best_.point.coefficients[c][j], channel.lower[j],
+                                    channel.upper[j], u_.coefficients[c][coefficient]);
+  // A lobe whose width nobody can tell is no lobe whose strength anybody can. (Grooves that nobody can tell from a flat
+  // surface still have their albedo.)
+  const bool width_unknown = problem_.model == surface_model && !out_.material.surface.slope;
+  if (width_unknown && name != name_of(Coefficient::rho) && is_lobe(coefficient) && p.value != 0.0) {
     p.value.reset();
     p.u.reset();
   }
@@ -169,28 +192,60 @@ void Assembly::add_coefficient(std::size_t c, std::size_t column) {
                             "another parameter of its component");
   }
   record(p, p.value.has_value() && !says_nothing);
-  out_.material.channels[c].coefficient(coefficient) = p.value;
+  out_.material.channels[c].set_coefficient(name, p.value);
+}
+
+// The material must say nothing that the scan does not determine, and still be one: what vanished in the scan leaves
+// the model.
+void Assembly::leave_out_undetermined() {
+  Material& m = out_.material;
+  if (m.components.has(Effect::coh) && !m.surface.sigma_um) {
+    m.components.erase(Effect::coh);
+    out_.warnings.emplace_back(
+        "coh vanishes in this scan, so sigma_um is not determined: the surface is too rough for its wavelengths to "
+        "reflect coherently; fit it without coh");
+  }
+  if (m.components.has(Effect::rough) && !m.surface.facet_slope_deg) {
+    m.surface.facet_slope_deg = 0.0;
+    out_.warnings.emplace_back(
+        "facet_slope_deg is not determined: nothing tells the grooves of rough from a flat surface, which the material "
+        "has instead; udf says the same");
+  }
+  if (m.components.has(Effect::rough) && m.forms.rough == RoughForm::functional) {
+    std::size_t cut = 0;
+    for (std::size_t i = 0; i < problem_.samples(); ++i) {
+      if (functional_is_cut(radians(*m.surface.facet_slope_deg), problem_.pairs[i])) ++cut;
+    }
+    if (cut > 0) {
+      out_.warnings.push_back("rough: at " + std::to_string(cut) +
+                              " readings of forward grazing the functional form is negative, which evaluation cuts at "
+                              "zero and the fit does "
+                              "not; take forms.rough = integral for facets this steep");
+    }
+  }
+  if (problem_.anisotropic && m.surface.slope && !m.surface.slope_y) {
+    out_.warnings.emplace_back(
+        "slope_y is not determined apart from k_dd: the readings see the surface in one direction only; measure at "
+        "another phi_i, or fit it as isotropic");
+  }
 }
 
 void Assembly::warn_of_surface() {
   const Surface& s = out_.material.surface;
-  const bool has_coh = problem_.components.has(Effect::coh);
   if (!s.slope) {
-    out_.warnings.emplace_back(
-        "slope is not determined: no directional part (dd, fs) is left in the fit; leave these out of the components, "
-        "or measure near the mirror direction");
-    if (has_coh) out_.material.components.erase(Effect::coh);
+    if (problem_.shape_index("slope")) {
+      out_.warnings.emplace_back(
+          "slope is not determined: no directional part (dd, fs) is left in the fit; leave these out of the "
+          "components, "
+          "or measure near the mirror direction");
+    }
+    out_.material.components.erase(Effect::coh);
     return;
   }
-  if (has_coh && !s.sigma_um) {
-    out_.material.components.erase(Effect::coh);
-    out_.warnings.emplace_back(
-        "coh vanishes in this scan, so sigma_um is not determined: the surface is too rough for its wavelengths to "
-        "reflect coherently; fit it without coh");
-  } else if (!s.sigma_um) {
+  if (!s.sigma_um && !problem_.basis->has_length()) {
     out_.notes.emplace_back(
         "sigma and tau enter only as slope = sigma/tau, so neither is determined alone; give a measured one (--fix "
-        "sigma_um=...), or include coh");
+        "sigma_um=...), or include coh or the distribution he-torrance");
   }
   const FittedParameter& slope = out_.parameters.front();
   if (slope.at_lower || slope.at_upper) {
@@ -204,11 +259,28 @@ void Assembly::warn_of_surface() {
   }
 }
 
+void Assembly::warn_of_peer() {
+  for (const FittedParameter& p : out_.parameters) {
+    if (!p.channel.empty()) break;
+    if (p.at_lower || p.at_upper) {
+      out_.warnings.push_back(p.name + " ended on its " + (p.at_lower ? "lower" : "upper") +
+                              " bound: the scan does not resolve the lobe, or the model does not describe it");
+    } else if (!p.value) {
+      out_.warnings.push_back(p.name + " is not determined: the lobe that it shapes is not in this scan");
+    }
+  }
+}
+
 void Assembly::add_warnings() {
   if (!out_.converged)
     out_.warnings.emplace_back(
         "the fit did not converge; look at the plot and at the bounds, and try fewer components");
-  warn_of_surface();
+  if (problem_.model == surface_model) {
+    warn_of_surface();
+    leave_out_undetermined();
+  } else {
+    warn_of_peer();
+  }
   ByName on_lower;
   ByName on_upper;
   for (const FittedParameter& p : out_.parameters) {

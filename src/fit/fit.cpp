@@ -17,8 +17,9 @@ EffectSet automatic_components(bool metal) noexcept {
   return metal ? EffectSet{Effect::dd, Effect::udf} : EffectSet{Effect::dd, Effect::uds, Effect::fs};
 }
 
-FitResult fit(const Scan& scan, const FitSettings& settings) {
-  const auto start = std::chrono::steady_clock::now();
+namespace {
+
+FitResult fit_as_asked(const Scan& scan, const FitSettings& settings) {
   const Problem problem(scan, settings);
   const SearchOutcome found = search(problem);
   Polished best;
@@ -32,6 +33,49 @@ FitResult fit(const Scan& scan, const FitSettings& settings) {
   result.search_evaluations = found.evaluations;
   result.polish_starts = found.minima.size();
   result.polish_iterations = iterations;
+  return result;
+}
+
+// Whether the scan leaves open what tells the distribution asked for from its rough limit: the tail of student-t, or
+// sigma of wave optics, unknown, on its upper bound, or known to no better than half of itself.
+const char* open_parameter(const FitResult& r) {
+  const DistributionTier d = r.material.terms.distribution;
+  const EffectSet effects = r.material.components;
+  if (!effects.has(Effect::dd) || !r.material.surface.slope) return nullptr;
+  const auto row = [&](const char* name) {
+    return std::find_if(r.parameters.begin(), r.parameters.end(),
+                        [name](const FittedParameter& p) { return p.name == name; });
+  };
+  if (d == DistributionTier::student_t) return row("tail")->value ? nullptr : "tail";
+  if (d == DistributionTier::rough_limit || effects.has(Effect::coh)) return nullptr;
+  const FittedParameter& sigma = *row("sigma_um");
+  const bool loose = sigma.u && *sigma.u > 0.5 * *sigma.value;
+  return !sigma.fixed && (!sigma.value || sigma.at_upper || loose) ? "sigma_um" : nullptr;
+}
+
+// What wave optics changes falls with 1/sigma². Where sigma is open by half of itself, that change is not to be told
+// from none by the scan's own scatter: then the rough limit, which has no sigma, is the answer, unless it is far worse.
+void settle_distribution(const Scan& scan, FitSettings settings, FitResult& result) {
+  const char* const name = open_parameter(result);
+  if (name == nullptr) return;
+  const std::string asked_for(name_of(settings.terms.distribution));
+  settings.terms.distribution = DistributionTier::rough_limit;
+  settings.parameters.erase(name);
+  FitResult rough = fit_as_asked(scan, settings);
+  if (rough.loss > 1.1 * result.loss) return;
+  rough.warnings.push_back(std::string(name) + " is not determined: nothing in this scan tells the distribution " +
+                           asked_for + " from its rough limit, which the material has instead");
+  rough.search_evaluations += result.search_evaluations;
+  rough.polish_iterations += result.polish_iterations;
+  result = std::move(rough);
+}
+
+}  // namespace
+
+FitResult fit(const Scan& scan, const FitSettings& settings) {
+  const auto start = std::chrono::steady_clock::now();
+  FitResult result = fit_as_asked(scan, settings);
+  settle_distribution(scan, settings, result);
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;
 }

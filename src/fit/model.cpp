@@ -22,8 +22,8 @@ Model::Model(const Problem& problem)
     : problem_(problem), parameters_(static_cast<Eigen::Index>(problem.basis->shape_parameters().size())) {
   const bool fixed = problem.free_optics == FreeOptics::none;
   for (std::size_t c = 0; c < problem.channels.size(); ++c) {
-    // With one shape parameter no factor reads the wavelength, and all channels share one set.
-    const std::size_t factors = factors_for(parameters_ > 1 ? problem.wavelength(c) : 1.0);
+    // Where no factor reads the wavelength all channels share one set.
+    const std::size_t factors = factors_for(problem.basis->has_length() ? problem.wavelength(c) : 1.0);
     std::size_t group = groups_.size();
     for (std::size_t other = 0; fixed && other < c; ++other) {
       const bool shared = problem.channels[other].optics_group == problem.channels[c].optics_group;
@@ -86,8 +86,8 @@ void Model::multiply_out(Group& group, bool derivatives) const {
 }
 
 void Model::set_shape(const double* z, bool derivatives) {
-  const Eigen::Vector2d log_shape = problem_.shape.log_shape(z);
-  const std::span<const double> shape(log_shape.data(), static_cast<std::size_t>(parameters_));
+  const Eigen::VectorXd all = problem_.shape.at(z);
+  const std::span<const double> shape(all.data(), static_cast<std::size_t>(parameters_));
   for (Factors& f : factors_) {
     if (derivatives) {
       problem_.basis->shape_factors(problem_.pairs, shape, f.wavelength_um, column_pointers(f.values),
@@ -111,21 +111,29 @@ void Model::set_optics(std::size_t channel, double value) {
   multiply_out(group, have_derivatives_);
 }
 
+double Model::amplitude(Eigen::Index column, const SmallVector& k) const noexcept {
+  const BasisColumn& c = problem_.basis->columns()[static_cast<std::size_t>(column)];
+  const double value = k[static_cast<Eigen::Index>(c.coefficient)];
+  return c.power == 2 ? value * value : value;
+}
+
 void Model::residuals(std::size_t channel, const SmallVector& k, Eigen::VectorXd& out) const {
-  const Eigen::MatrixXd& products = by_coefficient(channel);
+  const Eigen::MatrixXd& products = groups_[group_[channel]].products;
   out = -problem_.channels[channel].target;
-  for (Eigen::Index j = 0; j < k.size(); ++j) {
-    if (k[j] != 0.0) add_scaled(k[j], products.col(j).data(), out.data(), problem_.samples());
+  for (Eigen::Index j = 0; j < products.cols(); ++j) {
+    const double a = amplitude(j, k);
+    if (a != 0.0) add_scaled(a, products.col(j).data(), out.data(), problem_.samples());
   }
 }
 
 void Model::by_shape(std::size_t channel, const SmallVector& k, int i, Eigen::Ref<Eigen::VectorXd> out) const {
   const Group& group = groups_[group_[channel]];
   out.setZero();
-  for (Eigen::Index j = 0; j < k.size(); ++j) {
-    if (k[j] == 0.0 || !problem_.basis->columns()[static_cast<std::size_t>(j)].reads_shape) continue;
+  for (Eigen::Index j = 0; j < group.products.cols(); ++j) {
+    const double a = amplitude(j, k);
+    if (a == 0.0 || !problem_.basis->columns()[static_cast<std::size_t>(j)].reads_shape) continue;
     for (Eigen::Index parameter = 0; parameter < parameters_; ++parameter) {
-      const double chain = k[j] * problem_.shape.map(parameter, i);
+      const double chain = a * problem_.shape.map(parameter, i);
       if (chain != 0.0) {
         add_scaled(chain, group.shape_products.col(j * parameters_ + parameter).data(), out.data(), problem_.samples());
       }
@@ -133,12 +141,24 @@ void Model::by_shape(std::size_t channel, const SmallVector& k, int i, Eigen::Re
   }
 }
 
+void Model::by_coefficient(std::size_t channel, const SmallVector& k, std::size_t coefficient,
+                           Eigen::Ref<Eigen::VectorXd> out) const {
+  const Eigen::MatrixXd& products = groups_[group_[channel]].products;
+  out.setZero();
+  for (std::size_t j = 0; j < problem_.basis->columns().size(); ++j) {
+    const BasisColumn& c = problem_.basis->columns()[j];
+    if (c.coefficient != coefficient) continue;
+    const double chain = c.power == 2 ? 2.0 * k[static_cast<Eigen::Index>(coefficient)] : 1.0;
+    add_scaled(chain, products.col(static_cast<Eigen::Index>(j)).data(), out.data(), problem_.samples());
+  }
+}
+
 void Model::by_optics(std::size_t channel, const SmallVector& k, Eigen::Ref<Eigen::VectorXd> out) const {
   const Group& group = groups_[group_[channel]];
   const Eigen::MatrixXd& shape = factors_[group.factors].values;
   out.setZero();
-  for (Eigen::Index j = 0; j < k.size(); ++j) {
-    out.noalias() += k[j] * group.optics_derivatives.col(j).cwiseProduct(shape.col(j));
+  for (Eigen::Index j = 0; j < shape.cols(); ++j) {
+    out.noalias() += amplitude(j, k) * group.optics_derivatives.col(j).cwiseProduct(shape.col(j));
   }
 }
 
@@ -154,7 +174,10 @@ Linearisation linearise(const Problem& problem, const FitPoint& point) {
     l.loss += l.residuals.back().squaredNorm();
     Eigen::MatrixXd& shape = l.by_shape.emplace_back(n, problem.shape.free);
     for (int z = 0; z < problem.shape.free; ++z) model.by_shape(c, k, z, shape.col(z));
-    l.by_coefficient.push_back(model.by_coefficient(c));
+    Eigen::MatrixXd& coefficients = l.by_coefficient.emplace_back(n, k.size());
+    for (Eigen::Index j = 0; j < k.size(); ++j) {
+      model.by_coefficient(c, k, static_cast<std::size_t>(j), coefficients.col(j));
+    }
     Eigen::VectorXd& by_optics = l.by_optics.emplace_back();
     if (point.optics.empty()) continue;
     by_optics.resize(n);

@@ -25,10 +25,9 @@ class Model {
   void residuals(std::size_t channel, const SmallVector& k, Eigen::VectorXd& out) const;
   /// d residual / d z[i]; needs set_shape(.., true).
   void by_shape(std::size_t channel, const SmallVector& k, int i, Eigen::Ref<Eigen::VectorXd> out) const;
-  /// d residual / d coefficient, a column a basis column.
-  [[nodiscard]] const Eigen::MatrixXd& by_coefficient(std::size_t channel) const noexcept {
-    return groups_[group_[channel]].products;
-  }
+  /// d residual / d coefficient.
+  void by_coefficient(std::size_t channel, const SmallVector& k, std::size_t coefficient,
+                      Eigen::Ref<Eigen::VectorXd> out) const;
   /// d residual / d (f0 or n).
   void by_optics(std::size_t channel, const SmallVector& k, Eigen::Ref<Eigen::VectorXd> out) const;
 
@@ -48,6 +47,8 @@ class Model {
     Eigen::MatrixXd products;            ///< optics * shape factor
     Eigen::MatrixXd shape_products;      ///< optics * derivative of the shape factor
   };
+  /// What a column is multiplied by: its coefficient, or the square of it.
+  [[nodiscard]] double amplitude(Eigen::Index column, const SmallVector& k) const noexcept;
   std::size_t factors_for(double wavelength_um);
   void fill_optics(std::size_t channel, Group& group) const;
   void multiply_out(Group& group, bool derivatives) const;
@@ -64,7 +65,7 @@ class Model {
 struct Linearisation {
   std::vector<Eigen::VectorXd> residuals;       ///< one a channel
   std::vector<Eigen::MatrixXd> by_shape;        ///< samples x problem.shape.free
-  std::vector<Eigen::MatrixXd> by_coefficient;  ///< samples x columns
+  std::vector<Eigen::MatrixXd> by_coefficient;  ///< samples x coefficients
   std::vector<Eigen::VectorXd> by_optics;       ///< empty where fixed
   double loss = 0.0;
 };

@@ -1,20 +1,40 @@
 #include "fit/parameter_settings.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
+#include <memory>
 #include <sstream>
 #include <string_view>
 
+#include "basis/basis.h"
+#include "peers/peers.h"
 #include "support/error.h"
 
 namespace goniofit {
 
 namespace {
 
-constexpr std::array<std::string_view, 9> parameter_names{"slope", "sigma_um", "tau_um", "k_dd", "k_udf",
-                                                          "k_uds", "k_fs",     "n",      "f0"};
-constexpr std::array<std::string_view, 3> shared_names{"slope", "sigma_um", "tau_um"};
+// What a model's parameters are called: shared ones first, then those of a channel.
+struct ModelNames {
+  std::vector<std::string> shared, channel;
+};
+
+ModelNames names_of_model(const std::string& model) {
+  ModelNames names;
+  if (model == surface_model) {
+    names.shared.assign(surface_parameter_names.begin(), surface_parameter_names.end());
+    std::erase(names.shared, "tau_y_um");  // follows from slope_y
+    for (const Coefficient c : all_coefficients) names.channel.emplace_back(name_of(c));
+  } else if (const std::unique_ptr<const Basis> basis = make_peer(model)) {
+    for (const ShapeParameter& p : basis->shape_parameters()) names.shared.push_back(p.name);
+    for (const BasisCoefficient& c : basis->coefficients()) {
+      if (!c.constant()) names.channel.push_back(c.name);
+    }
+  } else {
+    throw usage_error("model " + model + ": no such model, expected one that `goniofit models` names");
+  }
+  names.channel.insert(names.channel.end(), {"n", "f0"});
+  return names;
+}
 
 template <class Names>
 bool contains(const Names& names, std::string_view name) {
@@ -66,20 +86,21 @@ std::pair<double, double> interval_of(const ParameterSetting& setting, const std
 }
 
 void check_parameter_names(const FitSettings& settings, const std::vector<std::string>& channels) {
+  const ModelNames known = names_of_model(settings.model);
   for (const auto& [key, setting] : settings.parameters) {
     const std::size_t dot = key.rfind('.');
     const std::string name = dot == std::string::npos ? key : key.substr(dot + 1);
-    if (!contains(parameter_names, name)) {
-      throw usage_error("parameter " + key +
-                        ": no such parameter, expected one of slope, sigma_um, tau_um, k_dd, k_udf, k_uds, "
-                        "k_fs, n, f0 or CHANNEL.name");
+    if (!contains(known.shared, name) && !contains(known.channel, name)) {
+      throw usage_error("parameter " + key + ": no such parameter, expected one of " +
+                        (known.shared.empty() ? "" : list(known.shared) + ", ") + list(known.channel) +
+                        " or CHANNEL.name");
     }
     if (dot == std::string::npos) continue;
     const std::string channel = key.substr(0, dot);
     if (!contains(channels, channel)) {
       throw usage_error("parameter " + key + ": no such channel, the scan has " + list(channels));
     }
-    if (contains(shared_names, name)) {
+    if (contains(known.shared, name)) {
       throw usage_error("parameter " + key + ": " + name + " is shared by all channels, expected " + name);
     }
   }

@@ -18,7 +18,7 @@ namespace goniofit {
 [[nodiscard]] std::pair<double, double> interval_of(const ParameterSetting& setting, const std::string& name,
                                                     double lower, double upper);
 
-/// Throws Error (bad_input) for a name that is no parameter or a channel that the scan does not have.
+/// Throws Error (bad_input) for a name that is no parameter of the model or a channel that the scan does not have.
 void check_parameter_names(const FitSettings& settings, const std::vector<std::string>& channels);
 
 }  // namespace goniofit

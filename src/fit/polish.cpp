@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <span>
+#include <utility>
 
 #include "fit/dot.h"
 #include "fit/model.h"
@@ -17,43 +19,72 @@ namespace {
 // Which of a channel's parameters Ceres moves. Those on a bound that the loss presses against are held there: Ceres
 // projects steps onto the box, which creeps along a bound instead of solving on it.
 struct ChannelLayout {
-  std::vector<std::size_t> columns;  ///< free coefficients
-  bool optics = false;               ///< the optical parameter is free
-  std::vector<double> x;             ///< Ceres' parameter block: the coefficients, then the optical parameter
+  std::vector<std::size_t> coefficients;  ///< free ones
+  bool optics = false;                    ///< the optical parameter is free
+  std::span<double> x;                    ///< Ceres' parameter block: the coefficients, then the optical parameter
 
-  [[nodiscard]] std::size_t size() const noexcept { return columns.size() + (optics ? 1 : 0); }
+  [[nodiscard]] std::size_t size() const noexcept { return coefficients.size() + (optics ? 1 : 0); }
 };
 
 struct State {
-  std::vector<double> z;
+  std::vector<std::size_t> moving;  ///< the shape parameters that are not held on a bound
+  std::span<double> shape;          ///< Ceres' parameter block of these
   std::vector<ChannelLayout> channels;
   FitPoint point;  ///< what is held fixed, and the result
 
+  State() = default;
+  State(State&&) = default;  // a copy's blocks would be the original's
+
+  /// Gives every parameter its place and its value at `point`. All blocks lie in one array: Ceres eliminates them in
+  /// the order of their addresses, which apart would be the heap's, and with it the last digit of the result.
+  void place_blocks() {
+    std::size_t size = moving.size();
+    for (const ChannelLayout& layout : channels) size += layout.size();
+    storage_.resize(size);
+    std::size_t used = 0;
+    const auto take = [&](std::size_t n) { return std::span(storage_).subspan(std::exchange(used, used + n), n); };
+    for (std::size_t c = 0; c < channels.size(); ++c) {
+      ChannelLayout& layout = channels[c];
+      layout.x = take(layout.size());
+      for (std::size_t i = 0; i < layout.coefficients.size(); ++i) {
+        layout.x[i] = point.coefficients[c][static_cast<Eigen::Index>(layout.coefficients[i])];
+      }
+      if (layout.optics) layout.x.back() = point.optics[c];
+    }
+    shape = take(moving.size());
+    for (std::size_t i = 0; i < moving.size(); ++i) shape[i] = point.z[moving[i]];
+  }
+
   void gather() {
-    point.z = z;
+    for (std::size_t i = 0; i < moving.size(); ++i) point.z[moving[i]] = shape[i];
     for (std::size_t c = 0; c < channels.size(); ++c) {
       const ChannelLayout& layout = channels[c];
-      for (std::size_t i = 0; i < layout.columns.size(); ++i) {
-        point.coefficients[c][static_cast<Eigen::Index>(layout.columns[i])] = layout.x[i];
+      for (std::size_t i = 0; i < layout.coefficients.size(); ++i) {
+        point.coefficients[c][static_cast<Eigen::Index>(layout.coefficients[i])] = layout.x[i];
       }
       if (layout.optics) point.optics[c] = layout.x.back();
     }
   }
+
+ private:
+  std::vector<double> storage_;
 };
 
 // Shape factors once an evaluation for all channels.
 class ShapeCallback final : public ceres::EvaluationCallback {
  public:
-  ShapeCallback(Model& model, const std::vector<double>& z) : model_(model), z_(z) {}
+  ShapeCallback(Model& model, const State& state) : model_(model), state_(state) {}
   void PrepareForEvaluation(bool jacobians, bool new_point) override {
     if (!new_point && (!jacobians || have_derivatives_)) return;
-    model_.set_shape(z_.data(), jacobians);
+    std::vector<double> z = state_.point.z;
+    for (std::size_t i = 0; i < state_.moving.size(); ++i) z[state_.moving[i]] = state_.shape[i];
+    model_.set_shape(z.data(), jacobians);
     have_derivatives_ = jacobians;
   }
 
  private:
   Model& model_;
-  const std::vector<double>& z_;
+  const State& state_;
   bool have_derivatives_ = false;
 };
 
@@ -64,7 +95,7 @@ class ChannelCost final : public ceres::CostFunction {
  public:
   ChannelCost(Model& model, const Problem& problem, const State& state, std::size_t channel)
       : model_(model),
-        free_shape_(problem.shape.free),
+        free_shape_(static_cast<int>(state.moving.size())),
         state_(state),
         channel_(channel),
         n_(static_cast<Eigen::Index>(problem.samples())),
@@ -78,9 +109,9 @@ class ChannelCost final : public ceres::CostFunction {
     SmallVector k = state_.point.coefficients[channel_];
     if (layout().size() > 0) {
       const double* const x = parameters[free_shape_ > 0 ? 1 : 0];
-      for (std::size_t i = 0; i < layout().columns.size(); ++i)
-        k[static_cast<Eigen::Index>(layout().columns[i])] = x[i];
-      if (layout().optics) model_.set_optics(channel_, x[layout().columns.size()]);
+      for (std::size_t i = 0; i < layout().coefficients.size(); ++i)
+        k[static_cast<Eigen::Index>(layout().coefficients[i])] = x[i];
+      if (layout().optics) model_.set_optics(channel_, x[layout().coefficients.size()]);
     }
     if (!layout().optics && !state_.point.optics.empty()) model_.set_optics(channel_, state_.point.optics[channel_]);
     Eigen::VectorXd r;
@@ -105,9 +136,8 @@ class ChannelCost final : public ceres::CostFunction {
   [[nodiscard]] Eigen::MatrixXd jacobian(const SmallVector& k) const {
     Eigen::MatrixXd j(n_, width_);
     Eigen::Index column = 0;
-    for (int z = 0; z < free_shape_; ++z) model_.by_shape(channel_, k, z, j.col(column++));
-    for (const std::size_t own : layout().columns)
-      j.col(column++) = model_.by_coefficient(channel_).col(static_cast<Eigen::Index>(own));
+    for (const std::size_t z : state_.moving) model_.by_shape(channel_, k, static_cast<int>(z), j.col(column++));
+    for (const std::size_t own : layout().coefficients) model_.by_coefficient(channel_, k, own, j.col(column++));
     if (layout().optics) model_.by_optics(channel_, k, j.col(column));
     return j;
   }
@@ -165,26 +195,26 @@ void add_bounds(ceres::Problem& ceres_problem, double* block, int index, double 
 // One Ceres run over what `state` leaves free. Returns whether it converged.
 bool solve(const Problem& problem, Model& model, State& state, std::size_t& iterations) {
   ceres::Problem::Options problem_options;
-  ShapeCallback callback(model, state.z);
+  ShapeCallback callback(model, state);
   problem_options.evaluation_callback = &callback;
   ceres::Problem ceres_problem(problem_options);
   ceres::Solver::Options options = solver_options(problem);
   auto ordering = std::make_shared<ceres::ParameterBlockOrdering>();
-  const bool shape_is_free = problem.shape.free > 0;
+  const bool shape_is_free = !state.moving.empty();
   for (std::size_t c = 0; c < problem.channels.size(); ++c) {
     ChannelLayout& layout = state.channels[c];
     std::vector<double*> blocks;
-    if (shape_is_free) blocks.push_back(state.z.data());
+    if (shape_is_free) blocks.push_back(state.shape.data());
     if (layout.size() > 0) blocks.push_back(layout.x.data());
     if (blocks.empty()) continue;
     ceres_problem.AddResidualBlock(new ChannelCost(model, problem, state, c), nullptr, blocks);
     const ProblemChannel& channel = problem.channels[c];
-    for (std::size_t i = 0; i < layout.columns.size(); ++i) {
-      const auto j = static_cast<Eigen::Index>(layout.columns[i]);
+    for (std::size_t i = 0; i < layout.coefficients.size(); ++i) {
+      const auto j = static_cast<Eigen::Index>(layout.coefficients[i]);
       add_bounds(ceres_problem, layout.x.data(), static_cast<int>(i), channel.lower[j], channel.upper[j]);
     }
     if (layout.optics) {
-      add_bounds(ceres_problem, layout.x.data(), static_cast<int>(layout.columns.size()), channel.optics_lower,
+      add_bounds(ceres_problem, layout.x.data(), static_cast<int>(layout.coefficients.size()), channel.optics_lower,
                  channel.optics_upper);
     }
     // The channels' own parameters are eliminated first: what remains couples through the shape alone.
@@ -192,10 +222,10 @@ bool solve(const Problem& problem, Model& model, State& state, std::size_t& iter
   }
   if (ceres_problem.NumParameters() == 0) return true;
   if (shape_is_free) {
-    ordering->AddElementToGroup(state.z.data(), 1);
-    for (int i = 0; i < problem.shape.free; ++i) {
-      add_bounds(ceres_problem, state.z.data(), i, problem.shape.lower[static_cast<std::size_t>(i)],
-                 problem.shape.upper[static_cast<std::size_t>(i)]);
+    ordering->AddElementToGroup(state.shape.data(), 1);
+    for (std::size_t i = 0; i < state.moving.size(); ++i) {
+      add_bounds(ceres_problem, state.shape.data(), static_cast<int>(i), problem.shape.lower[state.moving[i]],
+                 problem.shape.upper[state.moving[i]]);
     }
   }
   options.linear_solver_ordering = ordering;
@@ -213,7 +243,7 @@ double steepness(double product, double column2, double reach, double loss, doub
   if (column2 <= 0.0) return 0.0;
   const double step = std::min(std::fabs(product) / column2, reach);
   const double gain = step * (2.0 * std::fabs(product) - step * column2);
-  if (gain <= 1e-22 * total) return 0.0;
+  if (gain <= 1e-20 * total) return 0.0;
   return std::copysign(std::sqrt(gain / loss), product);
 }
 
@@ -247,24 +277,38 @@ Pressure optics_pressure(const Problem& problem, const Linearisation& l, const F
           channel.optics_lower >= channel.optics_upper || v.squaredNorm() == 0.0};
 }
 
+Pressure shape_pressure(const Problem& problem, const Linearisation& l, const FitPoint& p, int z) {
+  double product = 0.0;
+  double column2 = 0.0;
+  for (std::size_t c = 0; c < problem.channels.size(); ++c) {
+    product += l.by_shape[c].col(z).dot(l.residuals[c]);
+    column2 += l.by_shape[c].col(z).squaredNorm();
+  }
+  const auto i = static_cast<std::size_t>(z);
+  return {steepness(product, column2, 1.0, l.loss, problem.total), p.z[i] <= problem.shape.lower[i],
+          p.z[i] >= problem.shape.upper[i], false};
+}
+
 constexpr double release_tolerance = 1e-7;
 
 State layout_for(const Problem& problem, const FitPoint& point, const Linearisation& l) {
   State state;
-  state.z = point.z;
   state.point = point;
+  for (int z = 0; z < problem.shape.free; ++z) {
+    if (!shape_pressure(problem, l, point, z).wants_free(release_tolerance)) continue;
+    state.moving.push_back(static_cast<std::size_t>(z));
+  }
   for (std::size_t c = 0; c < problem.channels.size(); ++c) {
     ChannelLayout& layout = state.channels.emplace_back();
-    for (std::size_t j = 0; j < problem.basis->columns().size(); ++j) {
+    for (std::size_t j = 0; j < problem.basis->coefficients().size(); ++j) {
       if (!coefficient_pressure(problem, l, point, c, j).wants_free(release_tolerance)) continue;
-      layout.columns.push_back(j);
-      layout.x.push_back(point.coefficients[c][static_cast<Eigen::Index>(j)]);
+      layout.coefficients.push_back(j);
     }
     if (!point.optics.empty() && optics_pressure(problem, l, point, c).wants_free(release_tolerance)) {
       layout.optics = true;
-      layout.x.push_back(point.optics[c]);
     }
   }
+  state.place_blocks();
   return state;
 }
 
@@ -274,19 +318,9 @@ double optimality_of(const Problem& problem, const FitPoint& point, const Linear
   const auto look = [&worst](const Pressure& p) {
     if (p.wants_free(0.0)) worst = std::max(worst, std::fabs(p.steepness));
   };
-  for (int z = 0; z < problem.shape.free; ++z) {
-    double product = 0.0;
-    double column2 = 0.0;
-    for (std::size_t c = 0; c < problem.channels.size(); ++c) {
-      product += l.by_shape[c].col(z).dot(l.residuals[c]);
-      column2 += l.by_shape[c].col(z).squaredNorm();
-    }
-    const auto i = static_cast<std::size_t>(z);
-    look({steepness(product, column2, 1.0, l.loss, problem.total), point.z[i] <= problem.shape.lower[i],
-          point.z[i] >= problem.shape.upper[i], false});
-  }
+  for (int z = 0; z < problem.shape.free; ++z) look(shape_pressure(problem, l, point, z));
   for (std::size_t c = 0; c < problem.channels.size(); ++c) {
-    for (std::size_t j = 0; j < problem.basis->columns().size(); ++j)
+    for (std::size_t j = 0; j < problem.basis->coefficients().size(); ++j)
       look(coefficient_pressure(problem, l, point, c, j));
     if (!point.optics.empty()) look(optics_pressure(problem, l, point, c));
   }
@@ -323,26 +357,34 @@ Polished polish(const Problem& problem, const FitPoint& start) {
 PolishOutcome polish_from(const Scan& scan, const FitSettings& settings, const Material& start) {
   const Problem problem(scan, settings);
   FitPoint point;
-  const Eigen::Vector2d log_shape(std::log(*start.surface.slope), std::log(start.surface.sigma_um.value_or(1.0)));
+  Surface surface = start.surface;
   for (int z = 0; z < problem.shape.free; ++z) {
     const auto i = static_cast<std::size_t>(z);
-    const bool is_slope = z == 0 && problem.shape.outer_moves_slope;
-    point.z.push_back(std::clamp(log_shape[is_slope ? 0 : 1], problem.shape.lower[i], problem.shape.upper[i]));
+    const ShapeParameter& p = problem.basis->shape_parameters()[static_cast<std::size_t>(problem.shape.row[i])];
+    const double value =
+        start.model == surface_model ? surface.find(p.name)->value_or(1.0) : *start.parameters.at(p.name);
+    point.z.push_back(std::clamp(std::log(value - p.origin), problem.shape.lower[i], problem.shape.upper[i]));
   }
   for (std::size_t c = 0; c < problem.channels.size(); ++c) {
     const ProblemChannel& channel = problem.channels[c];
     SmallVector k(channel.lower.size());
     for (Eigen::Index j = 0; j < k.size(); ++j) {
-      const Coefficient coefficient = problem.basis->columns()[static_cast<std::size_t>(j)].coefficient;
-      k[j] = std::clamp(start.channels[c].coefficient(coefficient).value_or(0.0), channel.lower[j], channel.upper[j]);
+      const BasisCoefficient& coefficient = problem.basis->coefficients()[static_cast<std::size_t>(j)];
+      k[j] =
+          std::clamp(start.channels[c].coefficient(coefficient.name).value_or(0.0), channel.lower[j], channel.upper[j]);
     }
     point.coefficients.push_back(k);
     if (problem.free_optics == FreeOptics::f0) point.optics.push_back(start.channels[c].normal_reflectance());
     if (problem.free_optics == FreeOptics::n) point.optics.push_back(start.channels[c].n.value_or(1.5));
   }
   const Polished polished = polish(problem, point);
-  const Eigen::Vector2d end = problem.shape.log_shape(polished.point.z.data());
-  return {polished.point.loss, polished.converged, std::exp(end[0])};
+  PolishOutcome out{polished.point.loss, polished.converged, {}};
+  const Eigen::VectorXd end = problem.shape.at(polished.point.z.data());
+  for (Eigen::Index i = 0; i < end.size(); ++i) {
+    const ShapeParameter& p = problem.basis->shape_parameters()[static_cast<std::size_t>(i)];
+    out.shape[p.name] = p.origin + std::exp(end[i]);
+  }
+  return out;
 }
 
 }  // namespace goniofit

@@ -3,6 +3,8 @@
 // for narrow lobes is seldom the right one; fit() starts it from what search() found.
 
 #include <cstddef>
+#include <map>
+#include <string>
 
 #include "../brdf/material.h"
 #include "../scan/scan.h"
@@ -26,7 +28,7 @@ struct Polished {
 struct PolishOutcome {
   double loss = 0.0;
   bool converged = false;
-  double slope = 0.0;
+  std::map<std::string, double> shape;  ///< shape parameters by name
 };
 [[nodiscard]] PolishOutcome polish_from(const Scan& scan, const FitSettings& settings, const Material& start);
 

@@ -8,6 +8,7 @@
 #include "fit/fit.h"
 #include "fit/parameter_settings.h"
 #include "fit/surface_basis.h"
+#include "peers/peers.h"
 #include "support/error.h"
 
 namespace goniofit {
@@ -39,15 +40,17 @@ void check_range(double value, double lower, double upper, const std::string& na
 
 }  // namespace
 
-Eigen::Vector2d ShapeMap::log_shape(const double* z) const {
-  Eigen::Vector2d result = offset;
+Eigen::VectorXd ShapeMap::at(const double* z) const {
+  Eigen::VectorXd result = offset;
   for (int j = 0; j < free; ++j) result += map.col(j) * z[j];
   return result;
 }
 
 Problem::Problem(const Scan& scan, const FitSettings& settings)
-    : terms(settings.terms),
-      fs_form(settings.fs_form),
+    : model(settings.model),
+      terms(settings.terms),
+      forms(settings.forms),
+      anisotropic(settings.anisotropic || settings.parameters.contains("slope_y")),
       solid_angle_sr(settings.solid_angle_sr.value_or(scan.solid_angle_sr.value_or(default_solid_angle_sr))),
       free_optics(settings.free_optics),
       weighting(settings.weight) {
@@ -57,11 +60,37 @@ Problem::Problem(const Scan& scan, const FitSettings& settings)
   check_range(solid_angle_sr, 1e-12, 2.0 * pi, "solid angle");
   choose_rows(scan, settings);
   choose_optics(scan, settings);
-  choose_components(scan, settings);
-  basis = std::make_unique<SurfaceBasis>(components, ShapeSettings::of(terms, fs_form), solid_angle_sr);
+  if (model == surface_model) {
+    choose_components(settings);
+  } else if (settings.components) {
+    throw usage_error("components: given for the model " + model + ", which has none, expected the model surface");
+  }
+  choose_basis();
   choose_shape(settings);
   choose_coefficients(settings);
   fill_targets(scan);
+}
+
+std::optional<std::size_t> Problem::shape_index(const std::string& name) const {
+  const std::vector<ShapeParameter>& all = basis->shape_parameters();
+  const auto at = std::find_if(all.begin(), all.end(), [&](const ShapeParameter& p) { return p.name == name; });
+  if (at == all.end()) return std::nullopt;
+  return static_cast<std::size_t>(at - all.begin());
+}
+
+void Problem::choose_basis() {
+  if (model == surface_model) {
+    basis = std::make_unique<SurfaceBasis>(components, ShapeSettings::of(terms, forms, anisotropic), solid_angle_sr);
+  } else {
+    basis = make_peer(model, solid_angle_sr);
+  }
+  if (!basis->has_length()) return;
+  for (const ProblemChannel& c : channels) {
+    if (c.wavelength_um) continue;
+    const bool wave = ShapeSettings::of(terms, forms, anisotropic).wave_optics();
+    throw usage_error(std::string(wave ? "distribution he-torrance" : "coh") + " needs the wavelength of channel " +
+                      c.name + ", expected `# wavelength_um: ...` in the scan or a channel named like 550nm");
+  }
 }
 
 void Problem::choose_rows(const Scan& scan, const FitSettings& settings) {
@@ -133,10 +162,10 @@ void Problem::choose_optics(const Scan& scan, const FitSettings& settings) {
   }
 }
 
-void Problem::choose_components(const Scan& scan, const FitSettings& settings) {
+void Problem::choose_components(const FitSettings& settings) {
   if (settings.components) {
     components = *settings.components;
-    if (components.empty()) throw usage_error("components: none given, expected some of coh, dd, udf, uds, fs");
+    if (components.empty()) throw usage_error("components: none given, expected some of " + names_of<Effect>());
   } else {
     const bool metal =
         std::any_of(channels.begin(), channels.end(), [](const ProblemChannel& c) { return c.optics.kappa > 0.0; });
@@ -149,12 +178,6 @@ void Problem::choose_components(const Scan& scan, const FitSettings& settings) {
             : "components auto: dd, uds, fs, because kappa = 0 (a dielectric); the data do not choose yet");
   }
   if (!components.has(Effect::coh)) return;
-  for (const ProblemChannel& c : channels) {
-    if (!c.wavelength_um) {
-      throw usage_error(scan.source + ": coh needs the wavelength of channel " + c.name +
-                        ", expected `# wavelength_um: ...` in the scan or a channel named like 550nm");
-    }
-  }
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     if (in_mirror_cone(pairs[i], solid_angle_sr)) return;
   }
@@ -165,84 +188,110 @@ void Problem::choose_components(const Scan& scan, const FitSettings& settings) {
       "itself");
 }
 
-void Problem::choose_shape(const FitSettings& settings) {
-  const auto interval = [&](const char* name, double lower, double upper) {
-    return interval_of(setting_of(settings, name), name, lower, upper);
-  };
-  const ParameterSetting sigma = setting_of(settings, "sigma_um");
-  const ParameterSetting tau = setting_of(settings, "tau_um");
-  if (sigma.value) known_sigma_um = interval("sigma_um", 1e-9, 1e9).first;
-  if (tau.value) known_tau_um = interval("tau_um", 1e-9, 1e9).first;
-  auto [slope_low, slope_high] = interval("slope", slope_min, slope_max);
-  const bool slope_given = setting_of(settings, "slope").value.has_value();
-  if (known_sigma_um && known_tau_um) {
-    const double slope = *known_sigma_um / *known_tau_um;
-    if (slope_given && std::fabs(slope_low / slope - 1.0) > 1e-6) {
-      throw usage_error(
-          "parameter slope: fixed to another value than sigma_um / tau_um, expected one of the three to be left out");
-    }
-    check_range(slope, slope_min, slope_max, "sigma_um / tau_um");
-    slope_low = slope_high = slope;
-  }
-  const bool has_sigma = basis->shape_parameters().size() > 1;
-  if (!has_sigma && (sigma.min || sigma.max || tau.min || tau.max)) {
-    throw usage_error(
-        "parameter sigma_um or tau_um: bounds have no meaning without coh, which alone tells them from their quotient; "
-        "expected bounds of slope, or a fixed value");
-  }
-  if (has_sigma && (tau.min || tau.max))
-    throw usage_error("parameter tau_um: cannot be bounded, expected bounds of slope and sigma_um");
+void Problem::add_free(std::size_t parameter, double low, double high) {
+  const double origin = basis->shape_parameters()[parameter].origin;
+  shape.map(static_cast<Eigen::Index>(parameter), shape.free++) = 1.0;
+  shape.row.push_back(static_cast<int>(parameter));
+  shape.lower.push_back(std::log(low - origin));
+  shape.upper.push_back(std::log(high - origin));
+  shape.lower_value.push_back(low);
+  shape.upper_value.push_back(high);
+}
 
-  const auto add_free = [this](int row, double low, double high) {
-    shape.map(row, shape.free++) = 1.0;
-    shape.lower.push_back(std::log(low));
-    shape.upper.push_back(std::log(high));
-    shape.lower_value.push_back(low);
-    shape.upper_value.push_back(high);
-  };
-  if (slope_low < slope_high) {
-    add_free(0, slope_low, slope_high);
-    shape.outer_moves_slope = true;
+void Problem::fix(std::size_t parameter, double value) {
+  shape.offset[static_cast<Eigen::Index>(parameter)] = std::log(value - basis->shape_parameters()[parameter].origin);
+}
+
+void Problem::free_or_fix(const FitSettings& settings, std::size_t parameter) {
+  const ShapeParameter& p = basis->shape_parameters()[parameter];
+  const auto [low, high] = interval_of(setting_of(settings, p.name), p.name, p.lower, p.upper);
+  if (low < high) {
+    add_free(parameter, low, high);
   } else {
-    shape.offset[0] = std::log(slope_low);
-  }
-  if (!has_sigma) return;
-  const auto [sigma_low, sigma_high] =
-      known_sigma_um ? std::pair(*known_sigma_um, *known_sigma_um) : interval("sigma_um", sigma_um_min, sigma_um_max);
-  if (known_tau_um && !known_sigma_um) {  // sigma = tau * slope
-    shape.offset[1] = std::log(*known_tau_um) + shape.offset[0];
-    if (shape.outer_moves_slope) shape.map(1, 0) = 1.0;
-  } else if (sigma_low < sigma_high) {
-    add_free(1, sigma_low, sigma_high);
-  } else {
-    shape.offset[1] = std::log(sigma_low);
-    known_sigma_um = sigma_low;
+    fix(parameter, low);
   }
 }
 
+void Problem::choose_slope(const FitSettings& settings) {
+  const auto [low, high] = interval_of(setting_of(settings, "slope"), "slope", slope_min, slope_max);
+  if (!known_sigma_um || !known_tau_um) return free_or_fix(settings, *shape_index("slope"));
+  const double slope = *known_sigma_um / *known_tau_um;
+  if (setting_of(settings, "slope").value && std::fabs(low / slope - 1.0) > 1e-6) {
+    throw usage_error(
+        "parameter slope: fixed to another value than sigma_um / tau_um, expected one of the three to be left out");
+  }
+  check_range(slope, slope_min, slope_max, "sigma_um / tau_um");
+  fix(*shape_index("slope"), slope);
+}
+
+void Problem::choose_sigma(const FitSettings& settings) {
+  const std::size_t sigma = *shape_index("sigma_um");
+  if (known_sigma_um) return fix(sigma, *known_sigma_um);
+  if (!known_tau_um) {
+    free_or_fix(settings, sigma);
+    if (shape.row.empty() || shape.row.back() != static_cast<int>(sigma)) {  // its bounds met
+      known_sigma_um = std::exp(shape.offset[static_cast<Eigen::Index>(sigma)]);
+    }
+    return;
+  }
+  const auto slope = static_cast<Eigen::Index>(*shape_index("slope"));  // sigma = tau * slope
+  const auto row = static_cast<Eigen::Index>(sigma);
+  shape.offset[row] = std::log(*known_tau_um) + shape.offset[slope];
+  shape.map.row(row) = shape.map.row(slope);
+}
+
+void Problem::choose_shape(const FitSettings& settings) {
+  const auto size = static_cast<Eigen::Index>(basis->shape_parameters().size());
+  shape.offset = Eigen::VectorXd::Zero(size);
+  shape.map = Eigen::MatrixXd::Zero(size, size);
+  if (model == surface_model) {
+    const ParameterSetting sigma = setting_of(settings, "sigma_um");
+    const ParameterSetting tau = setting_of(settings, "tau_um");
+    if (sigma.value) known_sigma_um = interval_of(sigma, "sigma_um", 1e-9, 1e9).first;
+    if (tau.value) known_tau_um = interval_of(tau, "tau_um", 1e-9, 1e9).first;
+    if (!basis->has_length() && (sigma.min || sigma.max || tau.min || tau.max)) {
+      throw usage_error(
+          "parameter sigma_um or tau_um: bounds have no meaning without coh or the distribution he-torrance, which "
+          "alone tell them from their quotient; expected bounds of slope, or a fixed value");
+    }
+    if (tau.min || tau.max)
+      throw usage_error("parameter tau_um: cannot be bounded, expected bounds of slope and sigma_um");
+  }
+  for (std::size_t i = 0; i < basis->shape_parameters().size(); ++i) {
+    const std::string& name = basis->shape_parameters()[i].name;
+    if (model == surface_model && name == "slope") {
+      choose_slope(settings);
+    } else if (model == surface_model && name == "sigma_um") {
+      choose_sigma(settings);
+    } else {
+      free_or_fix(settings, i);
+    }
+  }
+  shape.map.conservativeResize(Eigen::NoChange, shape.free);
+}
+
 void Problem::choose_coefficients(const FitSettings& settings) {
-  const std::vector<BasisColumn>& columns = basis->columns();
+  const std::vector<BasisCoefficient>& coefficients = basis->coefficients();
   for (const Coefficient c : all_coefficients) {
     const std::string name(name_of(c));
-    const bool used =
-        std::any_of(columns.begin(), columns.end(), [c](const BasisColumn& b) { return b.coefficient == c; });
+    const bool used = std::any_of(coefficients.begin(), coefficients.end(),
+                                  [&](const BasisCoefficient& k) { return k.name == name; });
     if (!used && settings.parameters.contains(name)) {
       notes.push_back("the setting of " + name + " has no effect: no component of the model reads it");
     }
   }
-  const auto size = static_cast<Eigen::Index>(columns.size());
+  const auto size = static_cast<Eigen::Index>(coefficients.size());
   for (ProblemChannel& channel : channels) {
     channel.lower.resize(size);
     channel.upper.resize(size);
     for (Eigen::Index j = 0; j < size; ++j) {
-      const BasisColumn& column = columns[static_cast<std::size_t>(j)];
-      const std::string name(name_of(column.coefficient));
+      const BasisCoefficient& k = coefficients[static_cast<std::size_t>(j)];
       // Bounds given by the user may go beyond the default ones: a scan of uncertain scale may want k_dd of 1.2.
-      const ParameterSetting setting = setting_of(settings, name, channel.name);
-      const double highest = std::max({column.upper, setting.max.value_or(0.0), setting.value.value_or(0.0)});
-      const auto [low, high] = interval_of(setting, name, column.lower, highest);
+      const ParameterSetting setting = k.constant() ? ParameterSetting{} : setting_of(settings, k.name, channel.name);
+      const double highest = std::max({k.upper, setting.max.value_or(0.0), setting.value.value_or(0.0)});
+      const auto [low, high] = interval_of(setting, k.name, k.lower, highest);
       channel.lower[j] = low;
-      channel.upper[j] = setting.max || setting.value ? high : std::min(high, column.upper);
+      channel.upper[j] = setting.max || setting.value ? high : std::min(high, k.upper);
     }
   }
 }

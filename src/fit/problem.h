@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "../brdf/basis.h"
-#include "../brdf/optics.h"
+#include "../basis/basis.h"
+#include "../basis/optics.h"
 #include "../scan/scan.h"
 #include "bounded_least_squares.h"
 #include "settings.h"
@@ -24,16 +24,16 @@ struct Exclusions {
   std::size_t negative_values = 0;  ///< kept; counted over the readings used
 };
 
-/// log_shape = offset + map * z: what is left free of the shape parameters' logarithms.
+/// What is left free of the shape parameters: z_all = offset + map * z, z_all as in ShapeParameter.
 struct ShapeMap {
-  Eigen::Vector2d offset = Eigen::Vector2d::Zero();
-  Eigen::Matrix2d map = Eigen::Matrix2d::Zero();
-  int free = 0;                                  ///< length of z, 0 to 2
+  Eigen::VectorXd offset;
+  Eigen::MatrixXd map;                           ///< shape parameters x free ones
+  int free = 0;                                  ///< length of z
+  std::vector<int> row;                          ///< the shape parameter that each z is
   std::vector<double> lower, upper;              ///< bounds of z
   std::vector<double> lower_value, upper_value;  ///< the same of the parameters themselves, as they were given
-  bool outer_moves_slope = false;                ///< z[0] moves the slope (else, with free = 1, only sigma)
 
-  [[nodiscard]] Eigen::Vector2d log_shape(const double* z) const;
+  [[nodiscard]] Eigen::VectorXd at(const double* z) const;
 };
 
 struct ProblemChannel {
@@ -42,7 +42,7 @@ struct ProblemChannel {
   ChannelOptics optics{};                         ///< where fixed; the start where free
   std::optional<double> n, kappa;                 ///< as given; empty where f0 was
   Eigen::VectorXd target;                         ///< weight * value, one a reading used
-  SmallVector lower, upper;                       ///< bounds of the coefficients, by column; equal where fixed
+  SmallVector lower, upper;                       ///< bounds of the coefficients; equal where fixed
   double optics_lower = 0.0, optics_upper = 0.0;  ///< of the free optical parameter
   std::size_t optics_group = 0;                   ///< channels of equal optics share their columns
 };
@@ -52,6 +52,8 @@ class Problem {
   /// Throws Error (bad_input) where settings and scan contradict each other.
   Problem(const Scan& scan, const FitSettings& settings);
 
+  /// Index of a shape parameter by name; nullopt where the model does not read it.
+  [[nodiscard]] std::optional<std::size_t> shape_index(const std::string& name) const;
   [[nodiscard]] std::size_t samples() const noexcept { return pairs.size(); }
   [[nodiscard]] double wavelength(std::size_t channel) const noexcept {
     return channels[channel].wavelength_um.value_or(1.0);
@@ -63,9 +65,11 @@ class Problem {
     return BasicOptics<T>::of_index(value, T(channels[channel].optics.kappa));
   }
 
+  std::string model;
   EffectSet components;
   Terms terms;
-  FsForm fs_form;
+  Forms forms;
+  bool anisotropic;
   double solid_angle_sr;
   FreeOptics free_optics;
   Weight weighting;
@@ -87,8 +91,14 @@ class Problem {
  private:
   void choose_rows(const Scan& scan, const FitSettings& settings);
   void choose_optics(const Scan& scan, const FitSettings& settings);
-  void choose_components(const Scan& scan, const FitSettings& settings);
+  void choose_components(const FitSettings& settings);
+  void choose_basis();
   void choose_shape(const FitSettings& settings);
+  void choose_slope(const FitSettings& settings);
+  void choose_sigma(const FitSettings& settings);
+  void free_or_fix(const FitSettings& settings, std::size_t parameter);
+  void add_free(std::size_t parameter, double low, double high);
+  void fix(std::size_t parameter, double value);
   void choose_coefficients(const FitSettings& settings);
   void fill_targets(const Scan& scan);
 };

@@ -56,13 +56,11 @@ void accumulate(const Eigen::MatrixXd& a, const Eigen::VectorXd& target, SmallMa
 }  // namespace
 
 Profile::Profile(const Problem& problem)
-    : problem_(problem),
-      columns_(problem.basis->columns().size()),
-      early_log_slope_(std::numeric_limits<double>::quiet_NaN()) {
+    : problem_(problem), columns_(problem.basis->columns().size()), solver_(*problem.basis) {
   std::vector<std::size_t> early;
   std::vector<std::size_t> late;
   for (std::size_t i = 0; i < problem.samples(); ++i) {
-    (problem.basis->reads_later_shape(problem.pairs[i]) ? late : early).push_back(i);
+    (problem.basis->reads_length(problem.pairs[i]) ? late : early).push_back(i);
   }
   early_ = problem.pairs.subset(early);
   late_ = problem.pairs.subset(late);
@@ -87,7 +85,10 @@ Eigen::MatrixXd Profile::weighted_optics(const ChannelOptics& optics, const Pair
     const double t = transmission(problem_.terms.fresnel, optics, p);
     for (std::size_t j = 0; j < columns_; ++j) {
       const OpticsFactor factor = problem_.basis->columns()[j].optics;
-      const double o = factor == OpticsFactor::fresnel ? f : factor == OpticsFactor::transmission ? t : 1.0;
+      double o = 1.0;
+      if (factor == OpticsFactor::fresnel) o = f;
+      if (factor == OpticsFactor::transmission) o = t;
+      if (factor == OpticsFactor::remainder) o = remainder(problem_.terms.fresnel, optics, p);
       result(i, static_cast<Eigen::Index>(j)) = weight[i] * o;
     }
   }
@@ -114,12 +115,14 @@ void Profile::add_group(std::size_t index) {
   groups_.push_back(std::move(group));
 }
 
-void Profile::update_early(const Eigen::Vector2d& log_shape) {
-  if (log_shape[0] == early_log_slope_) return;
-  early_log_slope_ = log_shape[0];
+void Profile::update_early(const Eigen::VectorXd& shape) {
+  const Eigen::Index read = shape.size() - (problem_.basis->has_length() ? 1 : 0);
+  if (early_at_.size() == read + 1 && early_at_.head(read) == shape.head(read)) return;
+  early_at_.resize(read + 1);  // one more, so that an empty one is none yet
+  early_at_.head(read) = shape.head(read);
+  if (early_weight_.size() == 0) return reset_early_equations();
   const std::vector<double*> pointers = column_pointers(early_shape_);
-  problem_.basis->shape_factors(early_, std::span(log_shape.data(), problem_.basis->shape_parameters().size()), 1.0,
-                                pointers);
+  problem_.basis->shape_factors(early_, std::span(shape.data(), static_cast<std::size_t>(shape.size())), 1.0, pointers);
   const auto n = static_cast<std::size_t>(early_weight_.size());
   const auto columns = static_cast<Eigen::Index>(columns_);
   for (Group& group : groups_) {
@@ -137,6 +140,16 @@ void Profile::update_early(const Eigen::Vector2d& log_shape) {
   }
 }
 
+void Profile::reset_early_equations() {
+  const auto columns = static_cast<Eigen::Index>(columns_);
+  for (Group& group : groups_) {
+    for (Candidate& candidate : group.candidates) {
+      candidate.gram = SmallMatrix::Zero(columns, columns);
+      candidate.rhs = Eigen::MatrixXd::Zero(columns, static_cast<Eigen::Index>(group.channels.size()));
+    }
+  }
+}
+
 Profile::Choice Profile::choose_from(std::size_t channel, const Group& group, std::size_t position,
                                      const Eigen::MatrixXd& late_shape) const {
   const ProblemChannel& c = problem_.channels[channel];
@@ -149,7 +162,7 @@ Profile::Choice Profile::choose_from(std::size_t channel, const Group& group, st
       const Eigen::MatrixXd product = candidate.late.cwiseProduct(late_shape);
       accumulate(product, late_target_[channel], &gram, rhs);
     }
-    const BoundedSolution solution = solve_bounded(gram, rhs, c.lower, c.upper);
+    const CoefficientSolver::Solution solution = solver_.solve(gram, rhs, c.lower, c.upper);
     // The difference of near equals: round-off may leave it a little below zero on noise-free data.
     const double loss = std::max(0.0, target2_[channel] + solution.value);
     if (loss < best.loss) best = {solution, loss, candidate.value};
@@ -159,8 +172,8 @@ Profile::Choice Profile::choose_from(std::size_t channel, const Group& group, st
 
 FitPoint Profile::point(const double* z) {
   ++evaluations_;
-  const Eigen::Vector2d log_shape = problem_.shape.log_shape(z);
-  update_early(log_shape);
+  const Eigen::VectorXd shape = problem_.shape.at(z);
+  update_early(shape);
   FitPoint p;
   p.z.assign(z, z + problem_.shape.free);
   p.coefficients.resize(problem_.channels.size());
@@ -170,12 +183,12 @@ FitPoint Profile::point(const double* z) {
     for (std::size_t k = 0; k < group.channels.size(); ++k) {
       const std::size_t channel = group.channels[k];
       if (late_weight_.size() > 0) {
-        problem_.basis->shape_factors(late_, std::span(log_shape.data(), problem_.basis->shape_parameters().size()),
+        problem_.basis->shape_factors(late_, std::span(shape.data(), static_cast<std::size_t>(shape.size())),
                                       problem_.wavelength(channel), column_pointers(late_shape));
       }
       const Choice choice = choose_from(channel, group, k, late_shape);
       p.loss += choice.loss;
-      p.coefficients[channel] = choice.solution.x;
+      p.coefficients[channel] = choice.solution.k;
       if (!p.optics.empty()) p.optics[channel] = choice.optics;
     }
   }

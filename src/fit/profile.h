@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "coefficient_solve.h"
 #include "problem.h"
 #include "search.h"
 
@@ -33,27 +34,29 @@ class Profile {
     std::vector<Candidate> candidates;
   };
   struct Choice {
-    BoundedSolution solution;
+    CoefficientSolver::Solution solution;
     double loss = 0.0, optics = 0.0;
   };
 
   void add_group(std::size_t index);
   [[nodiscard]] Eigen::MatrixXd weighted_optics(const ChannelOptics& optics, const PairBatch& pairs,
                                                 const Eigen::VectorXd& weight) const;
-  void update_early(const Eigen::Vector2d& log_shape);
+  void reset_early_equations();
+  void update_early(const Eigen::VectorXd& shape);
   [[nodiscard]] Choice choose_from(std::size_t channel, const Group& group, std::size_t position,
                                    const Eigen::MatrixXd& late_shape) const;
 
   const Problem& problem_;
   std::size_t columns_;
-  // Rows whose factors read only the first shape parameter come first ("early"), the others ("late") are few or none.
+  CoefficientSolver solver_;
+  // Rows whose factors do not read the length come first ("early"); those that do ("late") are few, or all of them.
   PairBatch early_, late_;
   Eigen::VectorXd early_weight_, late_weight_;
   std::vector<Eigen::VectorXd> early_target_, late_target_;  ///< one a channel
   std::vector<double> target2_;                              ///< squared norm of each channel's target
   std::vector<Group> groups_;
   Eigen::MatrixXd early_shape_, product_;
-  double early_log_slope_;
+  Eigen::VectorXd early_at_;  ///< shape parameters that early_shape_ is of; empty at first
   std::size_t evaluations_ = 0;
 };
 

@@ -24,8 +24,9 @@ struct SearchOutcome {
   std::size_t evaluations = 0;   ///< points of the profile
 };
 
-/// Deterministic. `most` limits the minima returned; only such as come within 5 % of the best loss (plus round-off)
-/// are.
+/// Deterministic. `most` limits the minima returned (thrice as many of models with more than four shape
+/// parameters); only such as come within 5 % of the best loss (plus round-off)
+/// are, or within twice of it where the grid of three and more shape parameters is coarse.
 [[nodiscard]] SearchOutcome search(const Problem& problem, std::size_t most = 3);
 
 }  // namespace goniofit

@@ -24,13 +24,16 @@ enum class Weight : std::uint8_t { cosine, none };
 enum class FreeOptics : std::uint8_t { none, n, f0 };
 
 struct FitSettings {
+  std::string model{surface_model};     ///< or a peer, whose components there are none of
   std::optional<EffectSet> components;  ///< nullopt is "auto"
   Terms terms;
-  FsForm fs_form = FsForm::printed;
+  Forms forms;
+  bool anisotropic = false;  ///< two slopes; also where slope_y has a setting
   Weight weight = Weight::cosine;
   std::vector<double> n, kappa, f0;  ///< none (scan's metadata, else n = 1.5, kappa = 0), one, or one a channel
   FreeOptics free_optics = FreeOptics::none;
-  /// By name: slope, sigma_um, tau_um, k_dd, k_udf, k_uds, k_fs, n, f0 for every channel, or "CHANNEL.name" for one.
+  /// By name: a shape parameter (slope, tail ...), tau_um, a coefficient (k_dd, rho ...), n or f0 for every channel, or
+  /// "CHANNEL.name" for one.
   std::map<std::string, ParameterSetting> parameters;
   std::optional<double> solid_angle_sr;  ///< else the scan's, else 0.0005
   double max_theta_deg = 90.0;           ///< samples with theta_i or theta_r above are left out; exactly 90 always is
@@ -39,6 +42,8 @@ struct FitSettings {
 /// Bounds unless told otherwise.
 inline constexpr double slope_min = 1e-4, slope_max = 10.0;
 inline constexpr double sigma_um_min = 1e-3, sigma_um_max = 100.0;
+inline constexpr double tail_min = 1.05, tail_max = 200.0;
+inline constexpr double facet_slope_deg_min = 0.5;
 inline constexpr double n_min = 1e-3, n_max = 100.0;
 
 struct Noise {

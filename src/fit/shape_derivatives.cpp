@@ -46,7 +46,7 @@ void shape_columns_with_derivatives(const PairBatch& pairs, const ShapeSettings&
                                     double* d_dd, double* fs, double* d_fs) {
   if (dd == nullptr && fs == nullptr) return;
   with_tiers(settings, [&]<ShadowingTier shadowing, EffectiveRoughnessTier roughness>() {
-    choose<shadowing, roughness>(pairs, settings.fs_form, log_slope, exponent_floor, {dd, d_dd}, {fs, d_fs});
+    choose<shadowing, roughness>(pairs, settings.forms.fs, log_slope, exponent_floor, {dd, d_dd}, {fs, d_fs});
   });
 }
 

@@ -10,10 +10,10 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// ln of a length or of the slope, as value and gradient by z: all three are linear in z.
+// ln of a shape parameter (less its origin), or of a product of such, as value and gradient by z: all linear in z.
 struct LogLinear {
   double log_value = 0.0;
-  Eigen::Vector2d gradient = Eigen::Vector2d::Zero();
+  Eigen::VectorXd gradient;
 
   friend LogLinear operator+(const LogLinear& a, const LogLinear& b) {
     return {a.log_value + b.log_value, a.gradient + b.gradient};
@@ -26,26 +26,33 @@ struct LogLinear {
 class Rows {
  public:
   Rows(const Problem& problem, const FitPoint& point, const Uncertainties& u)
-      : problem_(problem), u_(u), log_shape_(problem.shape.log_shape(point.z.data())) {}
-  [[nodiscard]] ShapeRows rows() const;
+      : problem_(problem), u_(u), z_(problem.shape.at(point.z.data())) {}
+  [[nodiscard]] std::vector<FittedParameter> rows() const;
 
  private:
-  [[nodiscard]] LogLinear shape_parameter(int row) const {
-    return {log_shape_[row], problem_.shape.map.row(row).transpose()};
+  [[nodiscard]] LogLinear shape_parameter(std::size_t i) const {
+    const auto row = static_cast<Eigen::Index>(i);
+    return {z_[row], problem_.shape.map.row(row).transpose()};
+  }
+  [[nodiscard]] LogLinear constant(double value) const {
+    return {std::log(value), Eigen::VectorXd::Zero(problem_.shape.free)};
   }
   [[nodiscard]] std::optional<LogLinear> log_sigma() const;
-  [[nodiscard]] double standard_uncertainty(const Eigen::Vector2d& gradient) const;
-  [[nodiscard]] ParameterState state_of(const Eigen::Vector2d& gradient) const;
-  [[nodiscard]] FittedParameter fitted(const char* name, const LogLinear& x, double lower, double upper) const;
-  [[nodiscard]] FittedParameter derived(const char* name, const LogLinear& x) const;
+  [[nodiscard]] double standard_uncertainty(const Eigen::VectorXd& gradient) const;
+  [[nodiscard]] ParameterState state_of(const Eigen::VectorXd& gradient) const;
+  [[nodiscard]] FittedParameter fitted(const std::string& name, const LogLinear& x, double origin, double lower,
+                                       double upper) const;
+  [[nodiscard]] FittedParameter basis_row(std::size_t i) const;
+  [[nodiscard]] FittedParameter derived(const std::string& name, const LogLinear& x) const;
+  void add_lengths(std::vector<FittedParameter>& rows) const;
 
   const Problem& problem_;
   const Uncertainties& u_;
-  Eigen::Vector2d log_shape_;
+  Eigen::VectorXd z_;
 };
 
 // Of g · z, by the covariance of z; NaN where a z that it reads has none.
-double Rows::standard_uncertainty(const Eigen::Vector2d& gradient) const {
+double Rows::standard_uncertainty(const Eigen::VectorXd& gradient) const {
   double variance = 0.0;
   for (int a = 0; a < problem_.shape.free; ++a) {
     if (gradient[a] == 0.0) continue;
@@ -59,7 +66,7 @@ double Rows::standard_uncertainty(const Eigen::Vector2d& gradient) const {
   return std::sqrt(variance);
 }
 
-ParameterState Rows::state_of(const Eigen::Vector2d& gradient) const {
+ParameterState Rows::state_of(const Eigen::VectorXd& gradient) const {
   ParameterState state = ParameterState::fixed;
   for (int a = 0; a < problem_.shape.free; ++a) {
     const bool known = state != ParameterState::undetermined;
@@ -69,16 +76,17 @@ ParameterState Rows::state_of(const Eigen::Vector2d& gradient) const {
 }
 
 // A parameter that is one of z, or fixed.
-FittedParameter Rows::fitted(const char* name, const LogLinear& x, double lower, double upper) const {
+FittedParameter Rows::fitted(const std::string& name, const LogLinear& x, double origin, double lower,
+                             double upper) const {
   const ShapeMap& map = problem_.shape;
   for (int a = 0; a < map.free; ++a) {
     if (x.gradient[a] == 0.0) continue;
     lower = map.lower_value[static_cast<std::size_t>(a)];
     upper = map.upper_value[static_cast<std::size_t>(a)];
   }
-  const double value = std::exp(x.log_value);
-  const double u = value * standard_uncertainty(x.gradient);
-  FittedParameter p = parameter_row(name, "", value, lower, upper, {state_of(x.gradient), u, -1});
+  const double scale = std::exp(x.log_value);
+  const double u = scale * standard_uncertainty(x.gradient);
+  FittedParameter p = parameter_row(name, "", origin + scale, lower, upper, {state_of(x.gradient), u, -1});
   if (p.fixed) p.u.reset();
   // On a bound the value is the bound, not the exponential of its logarithm.
   if (p.at_lower) p.value = lower;
@@ -86,47 +94,75 @@ FittedParameter Rows::fitted(const char* name, const LogLinear& x, double lower,
   return p;
 }
 
+FittedParameter Rows::basis_row(std::size_t i) const {
+  const ShapeParameter& s = problem_.basis->shape_parameters()[i];
+  FittedParameter p = fitted(s.name, shape_parameter(i), s.origin, s.lower, s.upper);
+  p.unit = s.unit;
+  return p;
+}
+
 // A parameter that follows from others: no bounds of its own.
-FittedParameter Rows::derived(const char* name, const LogLinear& x) const {
-  FittedParameter p = fitted(name, x, 0.0, infinity);
+FittedParameter Rows::derived(const std::string& name, const LogLinear& x) const {
+  FittedParameter p = fitted(name, x, 0.0, 0.0, infinity);
   p.value = p.value ? std::optional(std::exp(x.log_value)) : std::nullopt;
   p.lower = 0.0;
   p.upper = infinity;
   p.at_lower = p.at_upper = false;
   p.derived = true;
+  p.unit = "um";
   return p;
 }
 
-// Fitted through coh, given, or from a given tau.
+// Fitted, given, or from a given tau.
 std::optional<LogLinear> Rows::log_sigma() const {
-  if (problem_.basis->shape_parameters().size() > 1) return shape_parameter(1);
-  if (problem_.known_sigma_um) return LogLinear{.log_value = std::log(*problem_.known_sigma_um)};
-  if (problem_.known_tau_um) return LogLinear{.log_value = std::log(*problem_.known_tau_um)} + shape_parameter(0);
+  if (const auto sigma = problem_.shape_index("sigma_um")) return shape_parameter(*sigma);
+  if (problem_.known_sigma_um) return constant(*problem_.known_sigma_um);
+  if (problem_.known_tau_um) return constant(*problem_.known_tau_um) + shape_parameter(*problem_.shape_index("slope"));
   return std::nullopt;
 }
 
-FittedParameter undetermined_length(const char* name) {
-  return parameter_row(name, "", 0.0, 0.0, infinity, {ParameterState::undetermined, infinity, -1});
+FittedParameter undetermined_row(const std::string& name, const std::string& unit) {
+  FittedParameter p = parameter_row(name, "", 0.0, 0.0, infinity, {ParameterState::undetermined, infinity, -1});
+  p.unit = unit;
+  return p;
 }
 
-ShapeRows Rows::rows() const {
-  const LogLinear slope = shape_parameter(0);
-  ShapeRows r{fitted("slope", slope, slope_min, slope_max), undetermined_length("sigma_um"),
-              undetermined_length("tau_um")};
-  const std::optional<LogLinear> sigma = log_sigma();
-  if (sigma && r.slope.value) {
+// sigma and tau beside the slopes: known, or not determined.
+void Rows::add_lengths(std::vector<FittedParameter>& rows) const {
+  const auto slope = problem_.shape_index("slope");
+  const auto slope_y = problem_.shape_index("slope_y");
+  const bool slope_known = slope && rows.front().value;
+  FittedParameter sigma = undetermined_row("sigma_um", "um");
+  FittedParameter tau = undetermined_row("tau_um", "um");
+  FittedParameter tau_y = undetermined_row("tau_y_um", "um");
+  if (const std::optional<LogLinear> log = slope_known ? log_sigma() : std::nullopt) {
     const bool from_tau = problem_.known_tau_um && !problem_.known_sigma_um;
-    r.sigma = from_tau ? derived("sigma_um", *sigma) : fitted("sigma_um", *sigma, 0.0, infinity);
-    r.tau = derived("tau_um", *sigma - slope);
-    r.tau.derived = !problem_.known_tau_um;
-    if (problem_.known_tau_um) r.tau.fixed = true;
+    sigma = from_tau ? derived("sigma_um", *log) : fitted("sigma_um", *log, 0.0, 0.0, infinity);
+    sigma.unit = "um";
+    tau = derived("tau_um", *log - shape_parameter(*slope));
+    tau.derived = !problem_.known_tau_um;
+    if (problem_.known_tau_um) tau.fixed = true;
+    if (slope_y) tau_y = derived("tau_y_um", *log - shape_parameter(*slope_y));
     // What was given stands as it was given: rounding must not make the three contradict each other in the file.
-    if (problem_.known_sigma_um) r.sigma.value = problem_.known_sigma_um;
-    if (problem_.known_tau_um) r.tau.value = problem_.known_tau_um;
-    if (!r.sigma.value) r.tau.value.reset();
+    if (problem_.known_sigma_um) sigma.value = problem_.known_sigma_um;
+    if (problem_.known_tau_um) tau.value = problem_.known_tau_um;
+    if (!sigma.value) tau.value.reset();
   }
-  r.sigma.unit = r.tau.unit = "um";
-  return r;
+  std::vector<FittedParameter> lengths{sigma, tau};
+  if (slope_y) lengths.push_back(tau_y);
+  rows.insert(rows.begin() + (slope_y ? 2 : 1), lengths.begin(), lengths.end());
+}
+
+std::vector<FittedParameter> Rows::rows() const {
+  std::vector<FittedParameter> rows;
+  const bool surface = problem_.model == surface_model;
+  if (surface && !problem_.shape_index("slope")) rows.push_back(undetermined_row("slope", ""));
+  for (std::size_t i = 0; i < problem_.basis->shape_parameters().size(); ++i) {
+    const bool length = problem_.basis->shape_parameters()[i].name == "sigma_um";  // beside the slopes, see below
+    if (!surface || !length) rows.push_back(basis_row(i));
+  }
+  if (surface) add_lengths(rows);
+  return rows;
 }
 
 }  // namespace
@@ -146,7 +182,7 @@ FittedParameter parameter_row(const std::string& name, const std::string& channe
   return p;
 }
 
-ShapeRows shape_rows(const Problem& problem, const FitPoint& point, const Uncertainties& u) {
+std::vector<FittedParameter> shape_rows(const Problem& problem, const FitPoint& point, const Uncertainties& u) {
   return Rows(problem, point, u).rows();
 }
 

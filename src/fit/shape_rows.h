@@ -1,5 +1,7 @@
 #pragma once
-// The report's rows of slope, sigma and tau, from the logarithms that a fit moves.
+// The report's rows of the shape, from the logarithms that a fit moves.
+
+#include <vector>
 
 #include "fit.h"
 #include "problem.h"
@@ -7,11 +9,10 @@
 
 namespace goniofit {
 
-struct ShapeRows {
-  FittedParameter slope, sigma, tau;  ///< value null where the scan does not determine it
-};
-
-[[nodiscard]] ShapeRows shape_rows(const Problem& problem, const FitPoint& point, const Uncertainties& u);
+/// A row each shape parameter of the model; of the surface family slope, sigma_um and tau_um are always among them, and
+/// tau_y_um where it is anisotropic. The value is null where the scan does not determine it.
+[[nodiscard]] std::vector<FittedParameter> shape_rows(const Problem& problem, const FitPoint& point,
+                                                      const Uncertainties& u);
 
 /// A row of the report from a value, its bounds and what is known of its uncertainty.
 [[nodiscard]] FittedParameter parameter_row(const std::string& name, const std::string& channel, double value,

@@ -34,7 +34,7 @@ std::vector<Case> cases() {
   const Material smooth = test::smooth_aluminium_45();
   all.push_back(make("Paint", paint, Sampling::hemisphere));
   all.push_back(
-      make("PaintReciprocal", paint, Sampling::hemisphere, [](FitSettings& s) { s.fs_form = FsForm::reciprocal; }));
+      make("PaintReciprocal", paint, Sampling::hemisphere, [](FitSettings& s) { s.forms.fs = FsForm::reciprocal; }));
   all.push_back(
       make("PaintUnweighted", paint, Sampling::incidence_plane, [](FitSettings& s) { s.weight = Weight::none; }));
   all.push_back(
@@ -58,6 +58,50 @@ std::vector<Case> cases() {
                      [](FitSettings& s) { s.parameters["tau_um"].value = 9.9; }));
   all.push_back(make("CoherentAlone", smooth, Sampling::incidence_plane,
                      [](FitSettings& s) { s.components = EffectSet{Effect::coh}; }));
+  const Material he = test::he_ground_glass();
+  all.push_back(make("HeTorrance", he, Sampling::incidence_plane));
+  all.push_back(make("HeTorranceSeries", he, Sampling::incidence_plane,
+                     [](FitSettings& s) { s.terms.distribution = DistributionTier::he_torrance_series; }));
+  all.push_back(make("HeTorranceKnownTau", he, Sampling::incidence_plane,
+                     [](FitSettings& s) { s.parameters["tau_um"].value = 5.2; }));
+  Material smooth_he = smooth;
+  smooth_he.terms = test::he_torrance_terms();
+  all.push_back(make("HeTorranceSmoothCoherent", smooth_he, Sampling::incidence_plane));
+  all.push_back(make("SchlickShadowing", paint, Sampling::hemisphere,
+                     [](FitSettings& s) { s.terms.shadowing = ShadowingTier::schlick; }));
+  all.push_back(make("SmithShadowing", paint, Sampling::hemisphere,
+                     [](FitSettings& s) { s.terms.shadowing = ShadowingTier::smith; }));
+  all.push_back(make("HeRoughness", paint, Sampling::hemisphere,
+                     [](FitSettings& s) { s.terms.effective_roughness = EffectiveRoughnessTier::he; }));
+  const Material tailed = test::long_tailed_paint();
+  all.push_back(make("StudentT", tailed, Sampling::hemisphere));
+  all.push_back(make("StudentTWithItsShadowing", tailed, Sampling::hemisphere,
+                     [](FitSettings& s) { s.terms.shadowing = ShadowingTier::smith; }));
+  const Material brushed = test::brushed_aluminium();
+  const auto anisotropic = [](FitSettings& s) { s.anisotropic = true; };
+  all.push_back(make("Anisotropic", brushed, Sampling::hemisphere, anisotropic));
+  all.push_back(make("AnisotropicPrinted", brushed, Sampling::hemisphere, [](FitSettings& s) {
+    s.anisotropic = true;
+    s.forms.anisotropy = AnisotropyForm::printed;
+  }));
+  Material brushed_he = brushed;
+  brushed_he.terms = test::he_torrance_terms();
+  brushed_he.surface.sigma_um = 0.3;
+  all.push_back(make("AnisotropicHeTorrance", brushed_he, Sampling::hemisphere, anisotropic));
+  Material brushed_paper = test::laser_paper_73();
+  brushed_paper.surface.slope_y = 0.3;
+  all.push_back(make("AnisotropicForwardScatter", brushed_paper, Sampling::hemisphere, [](FitSettings& s) {
+    s.anisotropic = true;
+    s.forms.fs = FsForm::reciprocal;
+  }));
+  const Material plaster = test::rough_plaster();
+  all.push_back(make("Rough", plaster, Sampling::hemisphere));
+  all.push_back(make("RoughQualitative", plaster, Sampling::hemisphere,
+                     [](FitSettings& s) { s.forms.rough = RoughForm::qualitative; }));
+  all.push_back(make("RoughIntegral", plaster, Sampling::incidence_plane, [](FitSettings& s) {
+    s.components = EffectSet{Effect::rough};
+    s.forms.rough = RoughForm::integral;
+  }));
   return all;
 }
 
@@ -78,12 +122,14 @@ TEST_P(Derivatives, AgreeWithCentralDifferences) {
   FitPoint point;
   for (int z = 0; z < problem.shape.free; ++z) {
     const auto i = static_cast<std::size_t>(z);
-    const double truth = std::log(z == 0 ? *c.truth.surface.slope : *c.truth.surface.sigma_um);
-    point.z.push_back(std::clamp(truth + 0.3, problem.shape.lower[i], problem.shape.upper[i]));
+    const ShapeParameter& p = problem.basis->shape_parameters()[static_cast<std::size_t>(problem.shape.row[i])];
+    const double truth = c.truth.model == surface_model ? Surface(c.truth.surface).find(p.name)->value_or(1.0)
+                                                        : *c.truth.parameters.at(p.name);
+    point.z.push_back(std::clamp(std::log(truth - p.origin) + 0.3, problem.shape.lower[i], problem.shape.upper[i]));
   }
   for (std::size_t channel = 0; channel < problem.channels.size(); ++channel) {
-    const auto columns = static_cast<Eigen::Index>(problem.basis->columns().size());
-    point.coefficients.emplace_back(SmallVector::Constant(columns, 0.4));
+    const auto coefficients = static_cast<Eigen::Index>(problem.basis->coefficients().size());
+    point.coefficients.emplace_back(SmallVector::Constant(coefficients, 0.4));
     if (problem.free_optics != FreeOptics::none)
       point.optics.push_back(problem.free_optics == FreeOptics::f0 ? 0.1 : 1.8);
   }

@@ -22,7 +22,7 @@ FitSettings settings_for(const Material& truth) {
   FitSettings s;
   s.components = truth.components;
   s.terms = truth.terms;
-  s.fs_form = truth.fs_form;
+  s.forms.fs = truth.forms.fs;
   return s;
 }
 
@@ -57,7 +57,7 @@ TEST(Fit, NoiseFreeScansGiveBackTheirParameters) {
 
 TEST(Fit, VariantsOfTheModelAreRecoveredToo) {
   Material m = test::laser_paper_73();
-  m.fs_form = FsForm::reciprocal;
+  m.forms.fs = FsForm::reciprocal;
   expect_recovered(fit(simulate(m, Sampling::hemisphere, {0, 0}, 1), settings_for(m)), m, 1e-8);
   m.terms.fresnel = FresnelTier::exact;
   expect_recovered(fit(simulate(m, Sampling::hemisphere, {0, 0}, 1), settings_for(m)), m, 1e-8);

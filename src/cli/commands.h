@@ -7,6 +7,7 @@ namespace goniofit::cli {
 
 void add_inspect(CLI::App& program, int& status);
 void add_fit(CLI::App& program, int& status);
+void add_compare(CLI::App& program, int& status);
 void add_simulate(CLI::App& program, int& status);
 void add_eval(CLI::App& program, int& status);
 void add_verify(CLI::App& program, int& status);

@@ -11,6 +11,7 @@
 #include "brdf/evaluator.h"
 #include "cli/commands.h"
 #include "cli/outputs.h"
+#include "cli/value_warnings.h"
 #include "geometry/pair.h"
 #include "io/material_io.h"
 #include "io/scan_reader.h"
@@ -91,6 +92,7 @@ int run(const Options& options) {
   const DirectionTable table = read_directions(options.directions);
   check_names(evaluator.material(), table.separator, options.material.string());
   write_result(options.output, [&](std::ostream& out) { write_values(out, evaluator, table); });
+  warn_of_values(evaluator, table.angles, options.material.string());
   return 0;
 }
 

@@ -11,11 +11,10 @@
 #include "cli/commands.h"
 #include "cli/console.h"
 #include "cli/fit_flags.h"
+#include "cli/fit_inputs.h"
 #include "cli/outputs.h"
 #include "io/exr_table.h"
 #include "io/material_io.h"
-#include "io/recipe_io.h"
-#include "io/scan_reader.h"
 #include "report/plot.h"
 #include "support/error.h"
 #include "support/text.h"
@@ -26,15 +25,14 @@ namespace {
 using Path = std::filesystem::path;
 
 struct Options {
-  std::vector<Path> scans;
-  std::optional<Path> recipe;
+  ScanOptions scan;
   Path output, table, exr;
   bool has_output = false;
   std::vector<Path> plots;
   std::string plot_axis = "auto";
   FitFlags flags;
   std::optional<std::string> name;
-  bool ignore_columns = false, json = false, quiet = false;
+  bool json = false, quiet = false;
 };
 
 PlotOptions plot_options(const Options& options) {
@@ -49,8 +47,8 @@ PlotOptions plot_options(const Options& options) {
   return plot;
 }
 
-void check_usage(const Options& options, const std::vector<Path>& scans, const Recipe& recipe) {
-  if (scans.empty()) throw usage_error("no scan: name one, or a recipe that does (--recipe)");
+void check_usage(const Options& options, const Recipe& recipe) {
+  const std::vector<Path> inputs = inputs_of(options.scan, options.flags, recipe);
   const bool material_on_stdout = options.has_output && is_stdout(options.output);
   if (material_on_stdout && options.json) {
     throw usage_error("--json: the report and the material (-o -) cannot both go to standard output");
@@ -60,27 +58,15 @@ void check_usage(const Options& options, const std::vector<Path>& scans, const R
   }
   std::vector<Path> outputs{options.output, options.table, options.exr};
   outputs.insert(outputs.end(), options.plots.begin(), options.plots.end());
-  std::vector<Path> inputs = scans;
-  if (options.recipe) inputs.push_back(*options.recipe);
-  if (const auto constants = optical_constants_of(options.flags, recipe)) inputs.push_back(*constants);
   check_outputs(outputs, inputs);
 }
 
-Scan read_scans(const Options& options, const std::vector<Path>& paths, const Recipe& recipe) {
-  std::vector<Scan> scans;
-  scans.reserve(paths.size());
-  for (const Path& path : paths) scans.push_back(read_scan(path, {.ignore_unknown_columns = options.ignore_columns}));
-  Scan scan = paths.size() == 1 ? std::move(scans.front()) : concatenate(scans);
-  const std::vector<std::string> channels = channels_of(options.flags, recipe);
-  if (!channels.empty()) scan = select_channels(scan, channels);
-  if (options.name || !recipe.name.empty()) scan.name = options.name.value_or(recipe.name);
-  return scan;
-}
-
 void write_outputs(const Options& options, const Scan& scan, const FitResult& result) {
+  // First, since it is what may be refused.
+  const auto table = options.exr.empty() ? std::nullopt : std::optional(tabulate(result.material));
   if (options.has_output && !is_stdout(options.output)) write_material(options.output, result.material);
   if (!options.table.empty()) write_result(options.table, to_csv({result.material}));
-  if (!options.exr.empty()) write_exr(options.exr, result.material, tabulate(result.material));
+  if (table) write_exr(options.exr, result.material, *table);
   for (const Path& plot : options.plots) plot_fit(plot, scan, result.material, plot_options(options));
 }
 
@@ -97,11 +83,10 @@ void print_result(const Options& options, const Scan& scan, const FitResult& res
 }
 
 int run(const Options& options) {
-  const Recipe recipe = options.recipe ? read_recipe(*options.recipe) : Recipe{};
-  const std::vector<Path>& paths = options.scans.empty() ? recipe.scans : options.scans;
-  check_usage(options, paths, recipe);
+  const Recipe recipe = recipe_of(options.scan);
+  check_usage(options, recipe);
   const PlotOptions plot = plot_options(options);
-  const Scan scan = read_scans(options, paths, recipe);
+  const Scan scan = read_scans(options.scan, options.flags, recipe, options.name);
   for (const Path& path : options.plots) check_plot(path, scan, plot);
   const FitSettings settings = settings_of(options.flags, recipe, scan);
   const FitResult result = [&] {
@@ -120,8 +105,7 @@ int run(const Options& options) {
 void add_fit(CLI::App& program, int& status) {
   const auto options = std::make_shared<Options>();
   CLI::App* command = program.add_subcommand("fit", "Fit the model to scans and report on the fit");
-  command->add_option("SCAN", options->scans, "scan CSV; the readings of several are fitted together")->type_name("");
-  command->add_option("--recipe", options->recipe, "settings from a TOML file; flags win over it")->type_name("FILE");
+  add_scan_options(*command, options->scan);
   CLI::Option* output =
       command->add_option("-o,--output", options->output, "the material as JSON ('-': standard output)")
           ->type_name("FILE");
@@ -132,9 +116,9 @@ void add_fit(CLI::App& program, int& status) {
   command->add_option("--table", options->table, "the parameters as a CSV table")->type_name("FILE");
   command->add_option("--exr", options->exr, "the fitted BRDF tabulated in OpenEXR")->type_name("FILE");
   command->add_option("--name", options->name, "name of the material, instead of the scan's")->type_name("NAME");
-  command->add_flag("--ignore-columns", options->ignore_columns, "skip columns that are no angle and no channel");
   command->add_flag("--json", options->json, "the report as JSON");
   command->add_flag("-q,--quiet", options->quiet, "no progress on standard error");
+  add_model_flag(*command, options->flags);
   add_fit_flags(*command, options->flags);
   command->footer(
       "Example:\n  goniofit fit data/garnet_red_paint_13.csv --n 1.7 --components dd,uds,fs -o garnet.json --plot "

@@ -1,9 +1,14 @@
 #include "cli/fit_flags.h"
 
+#include <array>
 #include <set>
+#include <utility>
 
+#include "basis/basis.h"
+#include "brdf/named_terms.h"
 #include "cli/number_arguments.h"
 #include "io/recipe_optics.h"
+#include "peers/peers.h"
 #include "support/error.h"
 #include "support/text.h"
 
@@ -30,11 +35,45 @@ std::optional<EffectSet> parse_components(const std::string& text) {
   return effects;
 }
 
+// The flags of the surface family's terms and forms: what a peer has none of.
+bool is_peer(const FitSettings& settings) { return settings.model != surface_model; }
+
+void check_peer_flags(const FitFlags& flags, const FitSettings& settings) {
+  const std::array given{std::pair{"--components", flags.components.has_value()},
+                         std::pair{"--terms", flags.terms.has_value()},
+                         std::pair{"--shadowing", flags.shadowing.has_value()},
+                         std::pair{"--effective-roughness", flags.effective_roughness.has_value()},
+                         std::pair{"--distribution", flags.distribution.has_value()},
+                         std::pair{"--fs-form", flags.fs_form.has_value()},
+                         std::pair{"--rough-form", flags.rough_form.has_value()},
+                         std::pair{"--anisotropy", flags.anisotropy.has_value()},
+                         std::pair{"--anisotropic", flags.anisotropic}};
+  for (const auto& [flag, is_given] : given) {
+    if (is_given) throw usage_error(std::string(flag) + ": the model " + settings.model + " has none of it");
+  }
+}
+
+// What the recipe says of another model's effects, terms and forms goes with that model.
+void apply_model(const FitFlags& flags, FitSettings& settings) {
+  if (flags.model && *flags.model != settings.model) {
+    if (*flags.model != surface_model && !make_peer(*flags.model)) {
+      throw usage_error("--model: " + in_quotes(*flags.model) + ", expected one that `goniofit models` names");
+    }
+    settings.model = *flags.model;
+    settings.components.reset();
+    settings.terms = {.fresnel = settings.terms.fresnel};
+    settings.forms = {};
+    settings.anisotropic = false;
+  }
+  if (is_peer(settings)) check_peer_flags(flags, settings);
+  if (flags.components) settings.components = parse_components(*flags.components);
+}
+
 void apply_terms(const FitFlags& flags, FitSettings& settings) {
   if (flags.terms) {
-    if (*flags.terms != "li-torrance")
-      throw usage_error("--terms: " + in_quotes(*flags.terms) + ", expected li-torrance");
-    settings.terms = Terms{};
+    const std::optional<Terms> named = named_terms(*flags.terms);
+    if (!named) throw usage_error("--terms: " + in_quotes(*flags.terms) + ", expected li-torrance or he-torrance");
+    settings.terms = *named;
   }
   Terms& terms = settings.terms;
   if (flags.fresnel) terms.fresnel = parse_enum<FresnelTier>(*flags.fresnel, "--fresnel");
@@ -43,7 +82,10 @@ void apply_terms(const FitFlags& flags, FitSettings& settings) {
     terms.effective_roughness = parse_enum<EffectiveRoughnessTier>(*flags.effective_roughness, "--effective-roughness");
   }
   if (flags.distribution) terms.distribution = parse_enum<DistributionTier>(*flags.distribution, "--distribution");
-  if (flags.fs_form) settings.fs_form = parse_enum<FsForm>(*flags.fs_form, "--fs-form");
+  if (flags.fs_form) settings.forms.fs = parse_enum<FsForm>(*flags.fs_form, "--fs-form");
+  if (flags.rough_form) settings.forms.rough = parse_enum<RoughForm>(*flags.rough_form, "--rough-form");
+  if (flags.anisotropy) settings.forms.anisotropy = parse_enum<AnisotropyForm>(*flags.anisotropy, "--anisotropy");
+  if (flags.anisotropic) settings.anisotropic = true;
 }
 
 void apply_optics(const FitFlags& flags, const Recipe& recipe, const Scan& scan, FitSettings& settings) {
@@ -123,14 +165,20 @@ void apply_loss(const FitFlags& flags, FitSettings& settings) {
 
 }  // namespace
 
+void add_model_flag(CLI::App& command, FitFlags& flags) {
+  command.add_option("--model", flags.model, "surface (default), or a peer that `goniofit models` names")
+      ->type_name("NAME")
+      ->group("Model");
+}
+
 void add_fit_flags(CLI::App& command, FitFlags& flags) {
   const auto once = [&command](const std::string& name, auto& target, const std::string& help) {
     return command.add_option(name, target, help);
   };
-  once("--components", flags.components, "effects to fit: auto, or some of coh,dd,udf,uds,fs")
+  once("--components", flags.components, "effects to fit: auto, or some of coh,dd,udf,uds,fs,rough")
       ->type_name("LIST")
       ->group("Model");
-  once("--terms", flags.terms, "all four terms at once: li-torrance")->type_name("SET")->group("Model");
+  once("--terms", flags.terms, "all four terms at once: li-torrance or he-torrance")->type_name("SET")->group("Model");
   once("--fresnel", flags.fresnel, names_of<FresnelTier>())->type_name("TIER")->group("Model");
   once("--shadowing", flags.shadowing, names_of<ShadowingTier>())->type_name("TIER")->group("Model");
   once("--effective-roughness", flags.effective_roughness, names_of<EffectiveRoughnessTier>())
@@ -138,6 +186,11 @@ void add_fit_flags(CLI::App& command, FitFlags& flags) {
       ->group("Model");
   once("--distribution", flags.distribution, names_of<DistributionTier>())->type_name("TIER")->group("Model");
   once("--fs-form", flags.fs_form, "forward scattering: " + names_of<FsForm>())->type_name("FORM")->group("Model");
+  once("--rough-form", flags.rough_form, "grooves: " + names_of<RoughForm>())->type_name("FORM")->group("Model");
+  once("--anisotropy", flags.anisotropy, "how an anisotropic surface reads the azimuth: " + names_of<AnisotropyForm>())
+      ->type_name("FORM")
+      ->group("Model");
+  command.add_flag("--anisotropic", flags.anisotropic, "two slopes, along and across")->group("Model");
   once("--n", flags.n, "refractive index, one or one a channel (1.7 or 1.7,1.6,1.6)")
       ->type_name("LIST")
       ->group("Optics");
@@ -180,7 +233,7 @@ std::optional<std::filesystem::path> optical_constants_of(const FitFlags& flags,
 
 FitSettings settings_of(const FitFlags& flags, const Recipe& recipe, const Scan& scan) {
   FitSettings settings = recipe.settings;
-  if (flags.components) settings.components = parse_components(*flags.components);
+  apply_model(flags, settings);
   apply_terms(flags, settings);
   apply_optics(flags, recipe, scan, settings);
   apply_parameters(flags, settings);

@@ -18,11 +18,15 @@ struct FitFlags {
   std::optional<std::string> n, kappa, f0, free_optics;
   std::optional<std::filesystem::path> optical_constants;
   std::vector<std::string> fixed, bounded;
-  std::optional<std::string> terms, fresnel, shadowing, effective_roughness, distribution, fs_form;
+  std::optional<std::string> model, terms, fresnel, shadowing, effective_roughness, distribution;
+  std::optional<std::string> fs_form, rough_form, anisotropy;
+  bool anisotropic = false;
   std::optional<std::string> loss, weight;
   std::optional<std::string> max_theta, solid_angle;
 };
 
+/// --model alone: `compare` has a list in its place.
+void add_model_flag(CLI::App& command, FitFlags& flags);
 void add_fit_flags(CLI::App& command, FitFlags& flags);
 
 /// The channels to fit: the flag's, else the recipe's; empty is all.

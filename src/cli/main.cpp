@@ -43,6 +43,7 @@ int run(int argc, char** argv) {
       "Exit status: 0 done, 1 the result fails, 2 bad usage or input, 3 the system failed.");
   goniofit::cli::add_inspect(program, status);
   goniofit::cli::add_fit(program, status);
+  goniofit::cli::add_compare(program, status);
   goniofit::cli::add_simulate(program, status);
   goniofit::cli::add_eval(program, status);
   goniofit::cli::add_verify(program, status);

@@ -25,8 +25,15 @@ struct ParameterEntry {
   std::string meaning;
 };
 
+struct PeerEntry {
+  std::string name, meaning, paper;
+  std::vector<ParameterEntry> parameters;  ///< shared ones, then those of a channel
+  bool reads_fresnel = false;              ///< whether n and kappa, or f0, are read
+};
+
 [[nodiscard]] std::vector<EffectEntry> effect_catalogue();
 [[nodiscard]] std::vector<TermEntry> term_catalogue();
 [[nodiscard]] std::vector<ParameterEntry> parameter_catalogue();
+[[nodiscard]] std::vector<PeerEntry> peer_entries();
 
 }  // namespace goniofit::cli

@@ -5,10 +5,15 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
+#include <string>
+#include <vector>
 
+#include "brdf/evaluator.h"
 #include "cli/commands.h"
 #include "cli/number_arguments.h"
 #include "cli/outputs.h"
+#include "cli/value_warnings.h"
 #include "io/material_io.h"
 #include "io/scan_reader.h"
 #include "support/error.h"
@@ -20,6 +25,7 @@ namespace {
 struct Options {
   std::filesystem::path material, output;
   std::string sampling, noise = "0";
+  std::optional<std::string> phi_i;
   std::uint64_t seed = 1;
   bool with_uncertainty = false;
 };
@@ -43,8 +49,14 @@ Noise parse_noise(const std::string& text) {
 int run(const Options& options) {
   const Sampling sampling = parse_sampling(options.sampling);
   const Noise noise = parse_noise(options.noise);
+  std::vector<double> azimuths;
+  if (options.phi_i) azimuths = parse_numbers(*options.phi_i, "--phi-i");
   check_outputs({options.output}, {options.material});
-  const Scan scan = simulate(read_material(options.material), sampling, noise, options.seed, options.with_uncertainty);
+  const Material material = read_material(options.material);
+  const Scan scan = simulate(material, sampling, noise, options.seed, options.with_uncertainty, azimuths);
+  std::vector<AnglePair> directions;
+  for (std::size_t row = 0; row < scan.size(); ++row) directions.push_back(scan.angles(row));
+  warn_of_values(Evaluator(material), directions, options.material.string());
   write_result(options.output, [&scan](std::ostream& out) { write_scan(out, scan); });
   return 0;
 }
@@ -59,6 +71,10 @@ void add_simulate(CLI::App& program, int& status) {
   command->add_option("--noise", options->noise, "standard deviations: relative, or relative,additive (1/sr)")
       ->type_name("R[,A]")
       ->capture_default_str();
+  command
+      ->add_option("--phi-i", options->phi_i,
+                   "azimuths of incidence in degrees (0, or 0,45,90 for an anisotropic material)")
+      ->type_name("LIST");
   command->add_option("--seed", options->seed, "of the noise")->type_name("INTEGER")->capture_default_str();
   command->add_flag("--with-uncertainty", options->with_uncertainty, "add a u_ column to each channel");
   command->add_option("-o,--output", options->output, "scan CSV (standard output by default)")->type_name("FILE");

@@ -2,6 +2,7 @@
 
 #include <ImfChannelList.h>
 #include <ImfDoubleAttribute.h>
+#include <ImfFloatVectorAttribute.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
 #include <ImfInputPart.h>
@@ -17,6 +18,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
+#include <set>
 
 #include "io/exr_table.h"
 #include "io/line_reader.h"
@@ -50,6 +53,33 @@ std::string part_name(double theta_i_deg) {
   return name;
 }
 
+// Every number of the material, so that nobody needs to read JSON for one.
+void insert_parameters(Imf::Header& header, const Material& material) {
+  Surface surface = material.surface;
+  for (const std::string_view name : surface_parameter_names) {
+    const std::optional<double> value = *surface.find(name);
+    if (value) header.insert("goniofit." + std::string(name), Imf::DoubleAttribute(*value));
+  }
+  for (const auto& [name, value] : material.parameters) {
+    if (value) header.insert("goniofit." + name, Imf::DoubleAttribute(*value));
+  }
+  std::set<std::string> coefficients;
+  for (const MaterialChannel& channel : material.channels) {
+    for (const Coefficient c : all_coefficients) {
+      if (channel.coefficient(c)) coefficients.emplace(name_of(c));
+    }
+    for (const auto& [name, value] : channel.peer_k) coefficients.insert(name);
+  }
+  for (const std::string& name : coefficients) {
+    std::vector<float> by_channel;
+    for (const MaterialChannel& channel : material.channels) {
+      by_channel.push_back(
+          static_cast<float>(channel.coefficient(name).value_or(std::numeric_limits<double>::quiet_NaN())));
+    }
+    header.insert("goniofit." + name, Imf::FloatVectorAttribute(by_channel));
+  }
+}
+
 Imf::Header common_header(const Material& material, const BrdfTable& table) {
   const int size = static_cast<int>(table.size);
   Imf::Header header(size, size);
@@ -64,7 +94,8 @@ Imf::Header common_header(const Material& material, const BrdfTable& table) {
   header.insert("goniofit.channels", Imf::StringVectorAttribute(table.channels));
   header.insert("goniofit.interpolation_rms", Imf::DoubleAttribute(table.interpolation_rms));
   header.insert("goniofit.interpolation_max", Imf::DoubleAttribute(table.interpolation_max));
-  if (material.surface.slope) header.insert("goniofit.slope", Imf::DoubleAttribute(*material.surface.slope));
+  header.insert("goniofit.model", Imf::StringAttribute(material.model));
+  insert_parameters(header, material);
   header.insert(
       "goniofit.mapping",
       Imf::StringAttribute("BRDF in 1/sr. Part: incidence angle theta_i_deg, phi_i = 0. Pixel centre: direction to "

@@ -5,6 +5,7 @@
 #include <limits>
 #include <random>
 
+#include "brdf/azimuths.h"
 #include "brdf/evaluator.h"
 #include "geometry/angles.h"
 #include "geometry/samplings.h"
@@ -60,7 +61,7 @@ std::vector<double> incidence_angles(double step_deg) {
 
 Material without_coherent(Material material) {
   material.components.erase(Effect::coh);
-  if (material.components.empty()) {
+  if (material.model == surface_model && material.components.empty()) {
     throw usage_error("a material of coh alone has nothing to tabulate: its cone is narrower than a cell");
   }
   return material;
@@ -147,6 +148,9 @@ BrdfTable tabulate(const Material& material, const ExrTableOptions& options) {
                       std::to_string(largest_table_size));
   }
   const Evaluator evaluator(without_coherent(material));
+  if (is_anisotropic(evaluator)) {
+    throw usage_error("an anisotropic material cannot be tabulated: the table has one azimuth of incidence");
+  }
   BrdfTable table;
   table.name = material.name;
   table.size = options.size;

@@ -40,12 +40,14 @@ struct BrdfTable {
 };
 
 /// coh is left out (its cone is narrower than a cell; sigma and tau are in the attributes), which the file says. Throws
-/// Error (bad_input) for an invalid material, one of coh alone, or options out of range.
+/// Error (bad_input) for an invalid material, one of coh alone, one that is anisotropic (the table has one phi_i), or
+/// options out of range.
 [[nodiscard]] BrdfTable tabulate(const Material& material, const ExrTableOptions& options = {});
 
 /// Every part has the attributes theta_i_deg (double), goniofit.format and .version, .material (the material as JSON),
-/// .name, .components, .slope where the material has one, .channels (in the material's order: OpenEXR sorts them),
-/// .interpolation_rms and _max, and in words .mapping and .left_out.
+/// .name, .model, .components, the shared parameters that the material has by their names (.slope, .tail, .alpha ...),
+/// .channels (in the material's order: OpenEXR sorts them), the coefficients by theirs (.k_dd ..., a number a channel,
+/// NaN where it is not known), .interpolation_rms and _max, and in words .mapping and .left_out.
 void write_exr(const std::filesystem::path& path, const Material& material, const BrdfTable& table);
 /// Throws Error (bad_input) when there is no such file or it is not such a table.
 [[nodiscard]] BrdfTable read_exr(const std::filesystem::path& path);

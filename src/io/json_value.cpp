@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <set>
-#include <vector>
 
 #include "support/error.h"
 #include "support/text.h"
@@ -172,7 +171,7 @@ JsonValue JsonValue::at(std::string_view key) const {
   throw key_error(*source_, pointer_ + pointer_step(key), "is missing");
 }
 
-void JsonValue::expect_keys(std::initializer_list<std::string_view> keys) const {
+void JsonValue::expect_keys(const std::vector<std::string_view>& keys) const {
   for_each_member([&](const std::string& key, const JsonValue& member) {
     if (std::find(keys.begin(), keys.end(), key) == keys.end()) {
       member.fail("is not a known key, expected " + alternatives(keys));

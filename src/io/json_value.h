@@ -5,10 +5,10 @@
 
 #include <cstddef>
 #include <functional>
-#include <initializer_list>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace goniofit {
 
@@ -41,7 +41,7 @@ class JsonValue {
   /// The member of an object; Error where it is absent.
   [[nodiscard]] JsonValue at(std::string_view key) const;
   /// Error where the object has a key that is none of these.
-  void expect_keys(std::initializer_list<std::string_view> keys) const;
+  void expect_keys(const std::vector<std::string_view>& keys) const;
 
   /// Throws Error (bad_input) about this value.
   [[noreturn]] void fail(const std::string& what) const;

@@ -1,6 +1,6 @@
 #include "io/material_io.h"
 
-#include <array>
+#include <memory>
 #include <utility>
 
 #include "io/json_value.h"
@@ -19,24 +19,26 @@ constexpr int deepest_nesting = 8;
 constexpr std::string_view format_name = "goniofit-material";
 constexpr std::size_t format_version = 1;
 
-// A key of the format whose model this version does not have: it may be there, without a value.
-void expect_no_value(const JsonValue& object, std::string_view key) {
-  const std::optional<JsonValue> value = object.find(key);
-  if (value && !value->is_null()) value->fail("is not available, expected null");
+// Of a channel, in the order of files: of a peer, or of the surface family where there is none.
+std::vector<std::string> coefficient_names(const Basis* peer) {
+  std::vector<std::string> names;
+  if (peer == nullptr) {
+    for (const Coefficient c : all_coefficients) names.emplace_back(name_of(c));
+    return names;
+  }
+  for (const BasisCoefficient& c : peer->coefficients()) {
+    if (!c.constant()) names.push_back(c.name);
+  }
+  return names;
 }
 
-void read_header(const JsonValue& document) {
-  document.expect_keys({"format", "version", "name", "model", "components", "terms", "surface", "forms", "channels",
-                        "solid_angle_sr", "fit"});
+void read_format(const JsonValue& document) {
   const JsonValue format = document.at("format");
   if (format.text() != format_name)
     format.fail("is " + in_quotes(format.text()) + ", expected " + in_quotes(format_name));
   const JsonValue version = document.at("version");
   if (version.count() != format_version) {
     version.fail("is " + std::to_string(version.count()) + ", expected " + std::to_string(format_version));
-  }
-  if (const auto model = document.find("model"); model && model->text() != "surface") {
-    model->fail(in_quotes(model->text()) + " is not available, expected \"surface\"");
   }
 }
 
@@ -73,38 +75,41 @@ std::optional<double> read_number(const JsonValue& object, std::string_view key)
 }
 
 Surface read_surface(const JsonValue& object) {
-  object.expect_keys({"slope", "sigma_um", "tau_um", "slope_y", "tau_y_um", "tail", "facet_slope_deg"});
-  for (const std::string_view key : {"slope_y", "tau_y_um", "tail", "facet_slope_deg"}) expect_no_value(object, key);
-  Surface surface{read_number(object, "slope"), read_number(object, "sigma_um"), read_number(object, "tau_um")};
-  const bool both = surface.sigma_um.value_or(0.0) > 0.0 && surface.tau_um.value_or(0.0) > 0.0;
-  if (!surface.slope && both) surface.slope = *surface.sigma_um / *surface.tau_um;
+  object.expect_keys({surface_parameter_names.begin(), surface_parameter_names.end()});
+  Surface surface;
+  for (const std::string_view name : surface_parameter_names) *surface.find(name) = read_number(object, name);
+  const auto derive = [&](std::optional<double>& slope, const std::optional<double>& tau) {
+    const bool both = surface.sigma_um.value_or(0.0) > 0.0 && tau.value_or(0.0) > 0.0;
+    if (!slope && both) slope = *surface.sigma_um / *tau;
+  };
+  derive(surface.slope, surface.tau_um);
+  derive(surface.slope_y, surface.tau_y_um);
   return surface;
 }
 
-FsForm read_forms(const JsonValue& object) {
+Forms read_forms(const JsonValue& object) {
   object.expect_keys({"fs", "rough", "anisotropy"});
-  FsForm form = FsForm::printed;
-  read_name(object, "fs", form);
-  // Forms of effects that are not there: only what the writer puts is accepted, so that nothing is lost unnoticed.
-  for (const auto& [key, only] : {std::pair{"rough", "functional"}, std::pair{"anisotropy", "consistent"}}) {
-    const std::optional<JsonValue> member = object.find(key);
-    if (member && member->text() != only) {
-      member->fail(in_quotes(member->text()) + " is not available, expected " + in_quotes(only));
-    }
-  }
-  return form;
+  Forms forms;
+  read_name(object, "fs", forms.fs);
+  read_name(object, "rough", forms.rough);
+  read_name(object, "anisotropy", forms.anisotropy);
+  return forms;
 }
 
-MaterialChannel read_channel(const JsonValue& object) {
-  object.expect_keys({"name", "wavelength_um", "n", "kappa", "f0", "k_dd", "k_udf", "k_uds", "k_fs", "rho"});
+// `coefficients` are those of the model.
+MaterialChannel read_channel(const JsonValue& object, const std::vector<std::string>& coefficients) {
+  std::vector<std::string_view> keys{"name", "wavelength_um", "n", "kappa", "f0"};
+  keys.insert(keys.end(), coefficients.begin(), coefficients.end());
+  object.expect_keys(keys);
   MaterialChannel channel;
   channel.name = object.at("name").text();
   channel.wavelength_um = read_number(object, "wavelength_um");
   channel.n = read_number(object, "n");
   channel.kappa = read_number(object, "kappa");
   channel.f0 = read_number(object, "f0");
-  for (const Coefficient c : all_coefficients) channel.coefficient(c) = read_number(object, name_of(c));
-  if (read_number(object, "rho").value_or(0.0) != 0.0) object.at("rho").fail("is not available, expected 0 or null");
+  for (const std::string& name : coefficients) {
+    if (const auto value = object.find(name)) channel.set_coefficient(name, value->number_or_null());
+  }
   return channel;
 }
 
@@ -135,15 +140,45 @@ FitSummary read_fit(const JsonValue& object) {
   return fit;
 }
 
-Material read_document(const JsonValue& document) {
-  read_header(document);
-  Material material;
-  if (const auto name = document.find("name")) material.name = name->text();
+void read_surface_model(const JsonValue& document, Material& material) {
+  document.expect_keys({"format", "version", "name", "model", "components", "terms", "surface", "forms", "channels",
+                        "solid_angle_sr", "fit"});
   material.components = read_components(document.at("components"));
   if (const auto terms = document.find("terms")) material.terms = read_terms(*terms);
   if (const auto surface = document.find("surface")) material.surface = read_surface(*surface);
-  if (const auto forms = document.find("forms")) material.fs_form = read_forms(*forms);
-  document.at("channels").for_each_element([&](const JsonValue& c) { material.channels.push_back(read_channel(c)); });
+  if (const auto forms = document.find("forms")) material.forms = read_forms(*forms);
+}
+
+// A peer has no effects, and of the terms Fresnel's alone.
+void read_peer(const JsonValue& document, Material& material) {
+  document.expect_keys(
+      {"format", "version", "name", "model", "components", "terms", "parameters", "channels", "solid_angle_sr", "fit"});
+  if (const auto components = document.find("components")) material.components = read_components(*components);
+  if (const auto terms = document.find("terms")) {
+    terms->expect_keys({"fresnel"});
+    read_name(*terms, "fresnel", material.terms.fresnel);
+  }
+  if (const auto parameters = document.find("parameters")) {
+    parameters->for_each_member(
+        [&](const std::string& name, const JsonValue& value) { material.parameters[name] = value.number_or_null(); });
+  }
+}
+
+Material read_document(const JsonValue& document) {
+  read_format(document);
+  Material material;
+  if (const auto model = document.find("model")) material.model = model->text();
+  const std::unique_ptr<const Basis> peer = require_model(document.source(), "/model", material.model);
+  if (peer) {
+    read_peer(document, material);
+  } else {
+    read_surface_model(document, material);
+  }
+  if (const auto name = document.find("name")) material.name = name->text();
+  const std::vector<std::string> coefficients = coefficient_names(peer.get());
+  document.at("channels").for_each_element([&](const JsonValue& c) {
+    material.channels.push_back(read_channel(c, coefficients));
+  });
   if (const auto angle = document.find("solid_angle_sr")) material.solid_angle_sr = angle->number();
   if (const auto fit = document.find("fit")) material.fit = read_fit(*fit);
   validate(material, document.source());
@@ -162,7 +197,7 @@ Ordered components_json(EffectSet components) {
   return out;
 }
 
-Ordered channel_json(const MaterialChannel& channel) {
+Ordered channel_json(const MaterialChannel& channel, const Basis* peer) {
   Ordered out{{"name", channel.name}, {"wavelength_um", number_or_null(channel.wavelength_um)}};
   if (channel.f0) {
     out["f0"] = *channel.f0;
@@ -170,9 +205,35 @@ Ordered channel_json(const MaterialChannel& channel) {
     out["n"] = number_or_null(channel.n);
     out["kappa"] = number_or_null(channel.kappa);
   }
-  for (const Coefficient c : all_coefficients) out[std::string(name_of(c))] = number_or_null(channel.coefficient(c));
-  out["rho"] = 0.0;
+  for (const std::string& name : coefficient_names(peer)) {
+    if (peer == nullptr || channel.peer_k.contains(name)) out[name] = number_or_null(channel.coefficient(name));
+  }
   return out;
+}
+
+void add_surface(Ordered& out, const Material& material) {
+  out["components"] = components_json(material.components);
+  out["terms"] = {{"fresnel", name_of(material.terms.fresnel)},
+                  {"shadowing", name_of(material.terms.shadowing)},
+                  {"effective_roughness", name_of(material.terms.effective_roughness)},
+                  {"distribution", name_of(material.terms.distribution)}};
+  Surface surface = material.surface;
+  for (const std::string_view name : surface_parameter_names) {
+    out["surface"][std::string(name)] = number_or_null(*surface.find(name));
+  }
+  out["forms"] = {{"fs", name_of(material.forms.fs)},
+                  {"rough", name_of(material.forms.rough)},
+                  {"anisotropy", name_of(material.forms.anisotropy)}};
+}
+
+void add_peer(Ordered& out, const Material& material, const Basis& peer) {
+  out["model"] = material.model;
+  out["terms"] = {{"fresnel", name_of(material.terms.fresnel)}};
+  out["parameters"] = Ordered::object();
+  for (const ShapeParameter& p : peer.shape_parameters()) {
+    const auto found = material.parameters.find(p.name);
+    if (found != material.parameters.end()) out["parameters"][p.name] = number_or_null(found->second);
+  }
 }
 
 Ordered fit_json(const FitSummary& fit, const std::vector<MaterialChannel>& channels) {
@@ -205,28 +266,16 @@ Material read_material(const std::filesystem::path& path) {
 
 std::string to_json(const Material& material) {
   validate(material, material.name);
-  const Surface& s = material.surface;
-  Ordered out{{"format", format_name},
-              {"version", format_version},
-              {"name", material.name},
-              {"components", components_json(material.components)},
-              {"terms",
-               {{"fresnel", name_of(material.terms.fresnel)},
-                {"shadowing", name_of(material.terms.shadowing)},
-                {"effective_roughness", name_of(material.terms.effective_roughness)},
-                {"distribution", name_of(material.terms.distribution)}}},
-              {"surface",
-               {{"slope", number_or_null(s.slope)},
-                {"sigma_um", number_or_null(s.sigma_um)},
-                {"tau_um", number_or_null(s.tau_um)},
-                {"slope_y", nullptr},
-                {"tau_y_um", nullptr},
-                {"tail", nullptr},
-                {"facet_slope_deg", nullptr}}},
-              {"forms", {{"fs", name_of(material.fs_form)}, {"rough", "functional"}, {"anisotropy", "consistent"}}},
-              {"channels", Ordered::array()},
-              {"solid_angle_sr", material.solid_angle_sr}};
-  for (const MaterialChannel& channel : material.channels) out["channels"].push_back(channel_json(channel));
+  const std::unique_ptr<const Basis> peer = require_model(material.name, "/model", material.model);
+  Ordered out{{"format", format_name}, {"version", format_version}, {"name", material.name}};
+  if (peer) {
+    add_peer(out, material, *peer);
+  } else {
+    add_surface(out, material);
+  }
+  out["channels"] = Ordered::array();
+  for (const MaterialChannel& channel : material.channels) out["channels"].push_back(channel_json(channel, peer.get()));
+  out["solid_angle_sr"] = material.solid_angle_sr;
   if (material.fit) out["fit"] = fit_json(*material.fit, material.channels);
   // A name from a Latin-1 scan is not UTF-8: a replaced character is better than no output.
   return out.dump(2, ' ', false, Ordered::error_handler_t::replace) + '\n';

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <set>
+#include <memory>
 
+#include "brdf/named_terms.h"
 #include "geometry/angles.h"
 #include "io/line_reader.h"
+#include "io/recipe_parameters.h"
 #include "io/tier_names.h"
 #include "io/toml_value.h"
 #include "support/error.h"
@@ -53,15 +55,22 @@ void read_name(const TomlValue& table, std::string_view key, E& value) {
   }
 }
 
-Terms read_terms(const TomlValue& value) {
+// A named set, or a table of tiers. A peer reads Fresnel's alone.
+Terms read_terms(const TomlValue& value, const Basis* peer) {
+  constexpr std::string_view expected = "\"li-torrance\", \"he-torrance\" or a table of tiers";
+  if (value.is_string() && peer == nullptr) {
+    const std::optional<Terms> terms = named_terms(value.text());
+    if (!terms) throw unknown_name(value.source(), value.pointer(), value.text(), std::string(expected));
+    return *terms;
+  }
   Terms terms;
-  if (value.is_string()) {
-    if (value.text() != "li-torrance") {
-      throw unknown_name(value.source(), value.pointer(), value.text(), "\"li-torrance\" or a table of tiers");
-    }
+  if (peer != nullptr) {
+    if (!value.is_table()) value.fail_type("a table of the tier fresnel, which alone this model reads");
+    value.expect_keys({"fresnel"});
+    read_name(value, "fresnel", terms.fresnel);
     return terms;
   }
-  if (!value.is_table()) value.fail_type("\"li-torrance\" or a table of tiers");
+  if (!value.is_table()) value.fail_type(std::string(expected));
   value.expect_keys({"fresnel", "shadowing", "effective_roughness", "distribution"});
   read_name(value, "fresnel", terms.fresnel);
   read_name(value, "shadowing", terms.shadowing);
@@ -98,23 +107,11 @@ std::vector<std::string> read_channels(const TomlValue& array) {
   return names;
 }
 
-struct Range {
-  bool (*holds)(double);
-  std::string_view expected;
-};
-constexpr Range positive{[](double x) { return x > 0.0; }, "a number above 0"};
-constexpr Range not_negative{[](double x) { return x >= 0.0; }, "a number of at least 0"};
-constexpr Range unit_interval{[](double x) { return x >= 0.0 && x <= 1.0; }, "a number in [0, 1]"};
-constexpr Range slope_range{[](double x) { return x >= smallest_slope && x <= largest_slope; },
-                            "a number in [1e-06, 10]"};
-constexpr Range solid_angle_range{[](double x) { return x > 0.0 && x < 2.0 * pi; }, "a number above 0 and below 2 pi"};
-constexpr Range theta_range{[](double x) { return x > 0.0 && x <= 90.0; }, "degrees above 0 and up to 90"};
-
-double read_number(const TomlValue& value, const Range& range) {
-  const double number = value.number(std::string(range.expected));
-  value.require(range.holds(number), number, std::string(range.expected));
-  return number;
-}
+Range positive() { return Range::above(0.0); }
+Range not_negative() { return Range::at_least(0.0); }
+Range unit_interval() { return Range::closed(0.0, 1.0); }
+Range solid_angle_range() { return {0.0, 2.0 * pi, false, false, "a number above 0 and below 2 pi"}; }
+Range theta_range() { return {0.0, 90.0, false, true, "degrees above 0 and up to 90"}; }
 
 // One value, or one a channel.
 std::vector<double> read_numbers(const TomlValue& value, const Range& range, std::size_t channels) {
@@ -157,10 +154,10 @@ void read_optics(const TomlValue& optics, Recipe& recipe) {
   if (f0 && constants) f0->fail("stands beside optical_constants, expected one of the two");
   if (f0 && settings.terms.fresnel == FresnelTier::exact)
     f0->fail("does not serve fresnel exact, expected n and kappa");
-  read_free_optics(optics, "n", positive, FreeOptics::n, recipe, settings.n);
-  read_free_optics(optics, "f0", unit_interval, FreeOptics::f0, recipe, settings.f0);
+  read_free_optics(optics, "n", positive(), FreeOptics::n, recipe, settings.n);
+  read_free_optics(optics, "f0", unit_interval(), FreeOptics::f0, recipe, settings.f0);
   if (const auto kappa = optics.find("kappa"))
-    settings.kappa = read_numbers(*kappa, not_negative, recipe.channels.size());
+    settings.kappa = read_numbers(*kappa, not_negative(), recipe.channels.size());
   const bool differ = settings.n.size() > 1 && settings.kappa.size() > 1 && settings.n.size() != settings.kappa.size();
   if (differ) {
     optics.find("kappa")->fail("has " + std::to_string(settings.kappa.size()) + " numbers where n has " +
@@ -169,82 +166,11 @@ void read_optics(const TomlValue& optics, Recipe& recipe) {
   if (constants) recipe.optical_constants = beside(recipe, *constants, "the path of a table of n and kappa");
 }
 
-struct Parameter {
-  std::string_view name;
-  bool shared;
-  Range range;
-};
-constexpr std::array parameters{Parameter{"slope", true, slope_range},   Parameter{"sigma_um", true, positive},
-                                Parameter{"tau_um", true, positive},     Parameter{"k_dd", false, not_negative},
-                                Parameter{"k_udf", false, not_negative}, Parameter{"k_uds", false, not_negative},
-                                Parameter{"k_fs", false, not_negative},  Parameter{"n", false, positive},
-                                Parameter{"f0", false, unit_interval}};
-
-const Parameter* find_parameter(std::string_view name) {
-  const auto* found =
-      std::find_if(parameters.begin(), parameters.end(), [&](const Parameter& p) { return p.name == name; });
-  return found == parameters.end() ? nullptr : found;
-}
-
-std::string parameter_names(bool with_shared) {
-  std::vector<std::string_view> names;
-  for (const Parameter& p : parameters) {
-    if (with_shared || !p.shared) names.push_back(p.name);
-  }
-  return alternatives(names);
-}
-
-// A number fixes, {value = ...} too, {min = ..., max = ...} bound.
-ParameterSetting read_setting(const TomlValue& value, const Range& range) {
-  if (value.is_number()) return {read_number(value, range), std::nullopt, std::nullopt};
-  if (!value.is_table()) value.fail_type("a number that fixes it, or {min = ..., max = ...}");
-  value.expect_keys({"value", "min", "max"});
-  ParameterSetting setting;
-  if (const auto fixed = value.find("value")) setting.value = read_number(*fixed, range);
-  if (const auto min = value.find("min")) setting.min = read_number(*min, range);
-  if (const auto max = value.find("max")) setting.max = read_number(*max, range);
-  if (setting.value && (setting.min || setting.max)) {
-    value.fail("has a value and bounds, expected one or the other: value fixes, min and max bound");
-  }
-  if (!setting.value && !setting.min && !setting.max) value.fail("is empty, expected value, min or max");
-  if (setting.min && setting.max && *setting.min >= *setting.max) {
-    value.fail("has min = " + shortest(*setting.min) + " and max = " + shortest(*setting.max) +
-               ", expected min below max (value fixes)");
-  }
-  return setting;
-}
-
-void read_channel_parameters(const TomlValue& table, const std::string& channel, Recipe& recipe) {
-  const std::vector<std::string>& channels = recipe.channels;
-  if (!channels.empty() && std::find(channels.begin(), channels.end(), channel) == channels.end()) {
-    table.fail("is neither a parameter nor a channel, expected " + parameter_names(true) + ", or a channel (" +
-               alternatives(channels) + ")");
-  }
-  table.for_each_member("a table", [&](const std::string& name, const TomlValue& value) {
-    const Parameter* parameter = find_parameter(name);
-    if (parameter == nullptr) value.fail("is not a parameter of a channel, expected " + parameter_names(false));
-    if (parameter->shared) value.fail("is shared by all channels, expected it directly under [parameters]");
-    recipe.settings.parameters[channel + "." + name] = read_setting(value, parameter->range);
-  });
-}
-
-void read_parameters(const TomlValue& table, Recipe& recipe) {
-  table.for_each_member("a table", [&](const std::string& name, const TomlValue& value) {
-    if (const Parameter* parameter = find_parameter(name)) {
-      recipe.settings.parameters[name] = read_setting(value, parameter->range);
-    } else if (value.is_table()) {
-      read_channel_parameters(value, name, recipe);
-    } else {
-      value.fail("is not a parameter, expected " + parameter_names(true) + ", or a channel's table");
-    }
-  });
-}
-
 Noise read_noise(const TomlValue& table) {
   table.expect_keys({"relative", "additive"});
   Noise noise{0.0, 0.0};
-  if (const auto relative = table.find("relative")) noise.relative = read_number(*relative, not_negative);
-  if (const auto additive = table.find("additive")) noise.additive = read_number(*additive, not_negative);
+  if (const auto relative = table.find("relative")) noise.relative = read_number(*relative, not_negative());
+  if (const auto additive = table.find("additive")) noise.additive = read_number(*additive, not_negative());
   return noise;
 }
 
@@ -264,7 +190,7 @@ std::size_t read_trials(const TomlValue& value) {
 std::pair<double, double> read_coverage(const TomlValue& array) {
   const std::string expected = "[smallest, largest]";
   std::vector<double> limits;
-  array.for_each_element(expected, [&](const TomlValue& v) { limits.push_back(read_number(v, unit_interval)); });
+  array.for_each_element(expected, [&](const TomlValue& v) { limits.push_back(read_number(v, unit_interval())); });
   if (limits.size() != 2) array.fail("has " + std::to_string(limits.size()) + " numbers, expected " + expected);
   if (limits[0] >= limits[1]) array.fail("is crossed, expected " + expected);
   return {limits[0], limits[1]};
@@ -282,17 +208,19 @@ VerifySettings read_verify(const TomlValue& table, const Recipe& recipe) {
   if (const auto trials = table.find("trials")) verify.trials = read_trials(*trials);
   if (const auto bounds = table.find("bounds")) {
     bounds->expect_keys({"slope_bias", "coverage_95"});
-    if (const auto bias = bounds->find("slope_bias")) verify.slope_bias = read_number(*bias, positive);
+    if (const auto bias = bounds->find("slope_bias")) verify.slope_bias = read_number(*bias, positive());
     if (const auto coverage = bounds->find("coverage_95")) verify.coverage_95 = read_coverage(*coverage);
   }
   return verify;
 }
 
-FsForm read_forms(const TomlValue& table) {
-  table.expect_keys({"fs"});
-  FsForm form = FsForm::printed;
-  read_name(table, "fs", form);
-  return form;
+Forms read_forms(const TomlValue& table) {
+  table.expect_keys({"fs", "rough", "anisotropy"});
+  Forms forms;
+  read_name(table, "fs", forms.fs);
+  read_name(table, "rough", forms.rough);
+  read_name(table, "anisotropy", forms.anisotropy);
+  return forms;
 }
 
 std::uint64_t read_seed(const TomlValue& value) {
@@ -302,29 +230,44 @@ std::uint64_t read_seed(const TomlValue& value) {
   return static_cast<std::uint64_t>(seed);
 }
 
-// Optics and parameters read what comes before them: the channels and the Fresnel tier.
+// What a fit fits. Of these a peer has the terms alone, and of the terms Fresnel's.
+void read_model(const TomlValue& document, const Basis* peer, FitSettings& settings) {
+  const auto components = document.find("components");
+  const auto anisotropic = document.find("anisotropic");
+  const bool automatic = !components || (components->is_string() && components->text() == "auto");
+  if (peer != nullptr) {
+    const std::string model = "though the model is " + settings.model;
+    if (!automatic) components->fail("is given " + model + ", which has no effects");
+    if (const auto forms = document.find("forms")) forms->fail("is given " + model + ", which has no forms");
+    if (anisotropic) anisotropic->fail("is given " + model + ", expected a model that is anisotropic");
+  }
+  if (!automatic) settings.components = read_components(*components);
+  if (const auto terms = document.find("terms")) settings.terms = read_terms(*terms, peer);
+  if (const auto forms = document.find("forms")) settings.forms = read_forms(*forms);
+  if (anisotropic) settings.anisotropic = anisotropic->boolean();
+}
+
+// Optics and parameters read what comes before them: the model, the channels and the Fresnel tier.
 Recipe read_document(const TomlValue& document) {
-  document.expect_keys({"name", "scan", "components", "terms", "forms", "loss", "weight", "max_theta_deg",
-                        "solid_angle_sr", "channels", "seed", "optics", "parameters", "verify"});
+  document.expect_keys({"name", "scan", "model", "components", "terms", "forms", "anisotropic", "loss", "weight",
+                        "max_theta_deg", "solid_angle_sr", "channels", "seed", "optics", "parameters", "verify"});
   Recipe recipe;
   recipe.source = document.source();
   FitSettings& settings = recipe.settings;
   if (const auto name = document.find("name")) recipe.name = name->text();
   if (const auto scan = document.find("scan")) read_scans(*scan, recipe);
-  const auto components = document.find("components");
-  const bool automatic = !components || (components->is_string() && components->text() == "auto");
-  if (!automatic) settings.components = read_components(*components);
-  if (const auto terms = document.find("terms")) settings.terms = read_terms(*terms);
-  if (const auto forms = document.find("forms")) settings.fs_form = read_forms(*forms);
+  if (const auto model = document.find("model")) settings.model = model->text();
+  const std::unique_ptr<const Basis> peer = require_model(document.source(), "/model", settings.model);
+  read_model(document, peer.get(), settings);
   if (const auto loss = document.find("loss")) read_loss(*loss);
   if (const auto weight = document.find("weight")) settings.weight = read_weight(*weight);
-  if (const auto theta = document.find("max_theta_deg")) settings.max_theta_deg = read_number(*theta, theta_range);
+  if (const auto theta = document.find("max_theta_deg")) settings.max_theta_deg = read_number(*theta, theta_range());
   if (const auto angle = document.find("solid_angle_sr"))
-    settings.solid_angle_sr = read_number(*angle, solid_angle_range);
+    settings.solid_angle_sr = read_number(*angle, solid_angle_range());
   if (const auto channels = document.find("channels")) recipe.channels = read_channels(*channels);
   if (const auto seed = document.find("seed")) recipe.seed = read_seed(*seed);
   if (const auto optics = document.find("optics")) read_optics(*optics, recipe);
-  if (const auto parameters_table = document.find("parameters")) read_parameters(*parameters_table, recipe);
+  if (const auto parameters = document.find("parameters")) read_parameters(*parameters, peer.get(), recipe);
   if (const auto verify = document.find("verify")) recipe.verify = read_verify(*verify, recipe);
   return recipe;
 }

@@ -1,30 +1,22 @@
 #pragma once
-// Names of effects, tiers and forms as files give them, with an answer for those the formats know and this version
-// lacks.
+// Names of effects, tiers and forms as files give them.
 
-#include <algorithm>
-#include <array>
+#include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
+#include "../basis/basis.h"
 #include "../brdf/material.h"
+#include "../peers/peers.h"
 #include "../support/error.h"
 #include "../support/text.h"
 
 namespace goniofit {
 
-/// Known to the file formats, not available: told apart from a misspelling.
-inline constexpr std::array names_without_model{
-    std::string_view{"smith"},       std::string_view{"schlick"},   std::string_view{"he"},
-    std::string_view{"he-torrance"}, std::string_view{"student-t"}, std::string_view{"he-torrance-series"},
-    std::string_view{"rough"},       std::string_view{"integral"},  std::string_view{"qualitative"}};
-
 [[nodiscard]] inline Error unknown_name(const std::string& file, const std::string& pointer, std::string_view name,
                                         const std::string& expected) {
-  const bool later =
-      std::find(names_without_model.begin(), names_without_model.end(), name) != names_without_model.end();
-  return key_error(file, pointer,
-                   in_quotes(name) + (later ? " is not available" : " is not known") + ", expected " + expected);
+  return key_error(file, pointer, in_quotes(name) + " is not known, expected " + expected);
 }
 
 /// E is any enumeration of brdf/material.h. Throws Error (bad_input) naming what there is.
@@ -33,6 +25,17 @@ template <class E>
   const std::optional<E> value = parse_name<E>(name);
   if (!value) throw unknown_name(file, pointer, name, names_of<E>());
   return *value;
+}
+
+/// The basis of a peer model, or null for the surface family. Throws Error (bad_input) for a name that is no model.
+[[nodiscard]] inline std::unique_ptr<const Basis> require_model(const std::string& file, const std::string& pointer,
+                                                                const std::string& name) {
+  if (name == surface_model) return nullptr;
+  std::unique_ptr<const Basis> basis = make_peer(name);
+  if (!basis) {
+    throw key_error(file, pointer, in_quotes(name) + " is no model, expected one that `goniofit models` names");
+  }
+  return basis;
 }
 
 }  // namespace goniofit

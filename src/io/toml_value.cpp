@@ -40,6 +40,11 @@ double TomlValue::number(const std::string& expected) const {
   return value;
 }
 
+bool TomlValue::boolean() const {
+  if (!node_->is_boolean()) fail_type("true or false");
+  return **node_->as_boolean();
+}
+
 std::int64_t TomlValue::whole_number(const std::string& expected) const {
   if (!node_->is_integer()) fail_type(expected);
   return **node_->as_integer();

@@ -30,6 +30,7 @@ class TomlValue {
 
   // Each of these throws Error (bad_input) where the value is of another type; `expected` is for the message.
   [[nodiscard]] double number(const std::string& expected = "a number") const;  ///< finite
+  [[nodiscard]] bool boolean() const;
   [[nodiscard]] std::int64_t whole_number(const std::string& expected) const;
   [[nodiscard]] const std::string& text(const std::string& expected = "a string") const;
   void for_each_element(const std::string& expected, const std::function<void(const TomlValue&)>& visit) const;

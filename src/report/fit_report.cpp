@@ -50,23 +50,42 @@ std::string optics_text(const Material& material) {
   return text;
 }
 
+bool is_peer(const Material& material) { return material.model != surface_model; }
+
+std::string terms_text(const Material& material) {
+  const Terms& terms = material.terms;
+  if (is_peer(material)) return fmt::format("Fresnel {}", name_of(terms.fresnel));
+  return fmt::format("Fresnel {}, shadowing {}, effective roughness {}, distribution {}", name_of(terms.fresnel),
+                     name_of(terms.shadowing), name_of(terms.effective_roughness), name_of(terms.distribution));
+}
+
+// Those that something reads; empty for none.
+std::string forms_text(const Material& material) {
+  std::vector<std::string> parts;
+  const auto add = [&](const char* of, std::string_view form) { parts.push_back(fmt::format("{} {}", of, form)); };
+  if (material.components.has(Effect::fs)) add("fs", name_of(material.forms.fs));
+  if (material.components.has(Effect::rough)) add("rough", name_of(material.forms.rough));
+  if (material.surface.anisotropic()) add("anisotropy", name_of(material.forms.anisotropy));
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
 std::string title_block(const FitResult& result, const Scan& scan, bool color) {
   const Material& material = result.material;
   const auto say = [color](const std::string& label, const std::string& text) {
     return line(label, text, Tint::none, color);
   };
-  const Terms& terms = material.terms;
   std::string out = tinted(printable(material.name.empty() ? "(no name)" : material.name), Tint::bold, color) + '\n';
   out += say("scan", printable(scan.source));
   out += say("geometry", fmt::format("{}, {} × {}", geometry_name(scan.geometry),
                                      count_text(scan.size(), "direction", "directions"),
                                      count_text(scan.channels.size(), "channel", "channels")));
-  out += say("components",
-             effects_text(material.components, " + ") + (result.components_were_auto ? " (chosen automatically)" : ""));
-  out += say("terms",
-             fmt::format("Fresnel {}, shadowing {}, effective roughness {}, distribution {}", name_of(terms.fresnel),
-                         name_of(terms.shadowing), name_of(terms.effective_roughness), name_of(terms.distribution)));
-  if (material.components.has(Effect::fs)) out += say("fs form", std::string(name_of(material.fs_form)));
+  out += say("model", material.model + (material.surface.anisotropic() ? ", anisotropic" : ""));
+  if (!is_peer(material)) {
+    out += say("components", effects_text(material.components, " + ") +
+                                 (result.components_were_auto ? " (chosen automatically)" : ""));
+  }
+  out += say("terms", terms_text(material));
+  if (const std::string forms = forms_text(material); !forms.empty()) out += say("forms", forms);
   out += say("optics", optics_text(material));
   if (material.components.has(Effect::coh)) {
     out += say("solid angle", number_text(material.solid_angle_sr) + " sr (source)");

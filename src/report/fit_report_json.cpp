@@ -30,14 +30,22 @@ Json parameter_json(const FittedParameter& p) {
 Json model_json(const FitResult& result) {
   const Material& material = result.material;
   Json out;
+  out["name"] = material.model;
+  out["solid_angle_sr"] = material.solid_angle_sr;
+  if (material.model != surface_model) {
+    out["terms"] = {{"fresnel", name_of(material.terms.fresnel)}};
+    return out;
+  }
   out["components"] = effect_names(material.components);
   out["components_auto"] = result.components_were_auto;
+  out["anisotropic"] = material.surface.anisotropic();
   out["terms"] = {{"fresnel", name_of(material.terms.fresnel)},
                   {"shadowing", name_of(material.terms.shadowing)},
                   {"effective_roughness", name_of(material.terms.effective_roughness)},
                   {"distribution", name_of(material.terms.distribution)}};
-  out["forms"] = {{"fs", name_of(material.fs_form)}};
-  out["solid_angle_sr"] = material.solid_angle_sr;
+  out["forms"] = {{"fs", name_of(material.forms.fs)},
+                  {"rough", name_of(material.forms.rough)},
+                  {"anisotropy", name_of(material.forms.anisotropy)}};
   return out;
 }
 

@@ -22,7 +22,7 @@ std::string effects_text(EffectSet effects, const std::string& separator) {
   return text;
 }
 
-std::string unit_text(const std::string& unit) { return unit == "um" ? "µm" : unit; }
+std::string unit_text(const std::string& unit) { return unit == "um" ? "µm" : unit == "deg" ? "°" : unit; }
 
 std::string state_of(const FittedParameter& parameter) {
   if (parameter.fixed) return "fixed";

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "brdf/azimuths.h"
 #include "brdf/evaluator.h"
 #include "geometry/angles.h"
 #include "report/fit_rows.h"
@@ -108,7 +109,9 @@ Range value_range(const PlotPlan& plan, double curve_highest) {
 double lobe_width_deg(const Material& material) {
   const double slope_width = degrees(material.surface.slope.value_or(1.0));
   constexpr double cone_deg = 0.7;  // half-angle of the coherent cone of the usual source
-  return material.components.has(Effect::coh) ? std::min(slope_width, cone_deg) : slope_width;
+  // What a peer's parameters say of its width only the peer knows.
+  const bool narrow = material.components.has(Effect::coh) || material.model != surface_model;
+  return narrow ? std::min(slope_width, cone_deg) : slope_width;
 }
 
 std::string measured_block(const Scan& scan, const PlotPlan& plan, std::size_t channel, std::size_t incidence) {
@@ -132,7 +135,10 @@ Curve curve_of(const Evaluator& evaluator, const PlotPlan& plan, std::size_t cha
   Curve curve{curve_angles(plan, theta_i, lobe_width_deg(evaluator.material())), {}};
   curve.values.reserve(curve.angles.size());
   for (const double angle : curve.angles) {
-    curve.values.push_back(evaluator.value(make_pair(in_plane(theta_i, angle)), channel));
+    AnglePair pair = in_plane(theta_i, angle);
+    pair.phi_i_deg += plan.phi_i_deg.value_or(0.0);
+    pair.phi_r_deg += plan.phi_i_deg.value_or(0.0);
+    curve.values.push_back(evaluator.value(make_pair(pair), channel));
   }
   return curve;
 }
@@ -150,18 +156,33 @@ std::string curve_block(const Curve& curve, const Range& range, bool log, std::s
 
 std::string angle_text(double degrees) { return fmt::format("{:.4g}", std::round(10.0 * degrees) / 10.0); }
 
+// "0.0854 ± 0.0011", or the value alone.
+std::string value_with_uncertainty(const Material& material, const std::string& name, double value) {
+  if (!material.fit) return number_text(value);
+  const auto found = material.fit->shared_uncertainty.find(name);
+  if (found == material.fit->shared_uncertainty.end()) return number_text(value);
+  const ValueText pair = value_text(value, found->second);
+  return pair.value + " ± " + pair.uncertainty;
+}
+
+std::string shape_text(const Material& material) {
+  std::string text;
+  const auto add = [&](const std::string& label, const std::string& name, const std::optional<double>& value) {
+    if (value) text += "   " + label + " = " + value_with_uncertainty(material, name, *value);
+  };
+  const Surface& s = material.surface;
+  add("slope σ/τ", "slope", s.slope);
+  add("σ/τ across", "slope_y", s.slope_y);
+  add("tail", "tail", s.tail);
+  add("facet slope / °", "facet_slope_deg", s.facet_slope_deg);
+  for (const auto& [name, value] : material.parameters) add(name, name, value);
+  return text;
+}
+
 std::string subtitle(const Scan& scan, const Material& material, const PlotPlan& plan) {
-  std::string text = effects_text(material.components, " + ");
-  if (material.surface.slope) {
-    std::string slope = number_text(*material.surface.slope);
-    const auto found = material.fit ? material.fit->shared_uncertainty.find("slope")
-                                    : decltype(material.fit->shared_uncertainty.end()){};
-    if (material.fit && found != material.fit->shared_uncertainty.end()) {
-      const ValueText pair = value_text(*material.surface.slope, found->second);
-      slope = pair.value + " ± " + pair.uncertainty;
-    }
-    text += "   slope σ/τ = " + slope;
-  }
+  const bool peer = material.model != surface_model;
+  std::string text = peer ? material.model : effects_text(material.components, " + ");
+  text += shape_text(material);
   if (material.fit) text += fmt::format("   RMS {:.3g} sr⁻¹", material.fit->rms);
   if (plan.channels.size() < scan.channels.size()) {
     text += fmt::format("   {} of {} channels", plan.channels.size(), scan.channels.size());
@@ -175,6 +196,7 @@ std::string remarks(const PlotPlan& plan) {
   if (plan.incidences.size() < plan.incidences_available) {
     parts.push_back(fmt::format("{} of {} incidence angles", plan.incidences.size(), plan.incidences_available));
   }
+  if (plan.phi_i_deg) parts.push_back(fmt::format("φᵢ = {}° alone", angle_text(*plan.phi_i_deg)));
   if (plan.azimuth_tolerance_deg > 0.5) {
     parts.push_back(fmt::format("readings within {}° of the plane of incidence", plan.azimuth_tolerance_deg));
   }
@@ -318,8 +340,12 @@ void plot_fit(const std::filesystem::path& path, const Scan& scan, const Materia
     throw usage_error(fmt::format("the material has {} channels and the scan {}: they cannot be drawn together",
                                   material.channels.size(), scan.channels.size()));
   }
-  const PlotPlan plan = plan_plot(scan, options);
-  const std::string script = script_of(png, scan, material, plan);
+  // What an anisotropic material does at one azimuth says nothing of the readings at another.
+  const bool anisotropic = scan.size() > 0 && is_anisotropic(Evaluator(material));
+  const Scan shown = anisotropic ? at_azimuth(scan, scan.phi_i_deg.front()) : scan;
+  PlotPlan plan = plan_plot(shown, options);
+  if (anisotropic) plan.phi_i_deg = scan.phi_i_deg.front();
+  const std::string script = script_of(png, shown, material, plan);
   write_file_with(path, [&script](const std::filesystem::path& temporary) { run_gnuplot(script, temporary); });
 }
 

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
+#include "geometry/angles.h"
 #include "report/fit_rows.h"
 #include "support/error.h"
 
@@ -152,6 +154,28 @@ PlotPlan plan_plot(const Scan& scan, const PlotOptions& options) {
   choose_axes(scan, options.axis, plan);
   choose_range(plan);
   return plan;
+}
+
+Scan at_azimuth(const Scan& scan, double phi_i_deg) {
+  constexpr double tolerance_deg = 0.5;
+  std::vector<std::size_t> rows;
+  for (std::size_t row = 0; row < scan.size(); ++row) {
+    if (std::fabs(wrap_deg(scan.phi_i_deg[row] - phi_i_deg)) <= tolerance_deg) rows.push_back(row);
+  }
+  const auto keep = [&rows](std::vector<double>& values) {
+    if (values.empty()) return;  // a channel without uncertainties
+    std::vector<double> kept;
+    kept.reserve(rows.size());
+    for (const std::size_t row : rows) kept.push_back(values[row]);
+    values = std::move(kept);
+  };
+  Scan out = scan;
+  for (auto* angles : {&out.theta_i_deg, &out.phi_i_deg, &out.theta_r_deg, &out.phi_r_deg}) keep(*angles);
+  for (ScanChannel& channel : out.channels) {
+    keep(channel.values);
+    keep(channel.u);
+  }
+  return out;
 }
 
 std::vector<double> curve_angles(const PlotPlan& plan, double theta_i_deg, double lobe_deg) {

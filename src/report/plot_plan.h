@@ -2,6 +2,7 @@
 // Which readings a plot shows, on which axes: decided from the scan alone, before anything is drawn.
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "plot.h"
@@ -19,6 +20,7 @@ struct PlotPlan {
   std::vector<PlottedIncidence> incidences;
   double azimuth_tolerance_deg = 0.5;  ///< readings within this of the plane of incidence
   double incidence_width_deg = 0.5;    ///< readings of one curve differ by at most this in theta_i
+  std::optional<double> phi_i_deg;     ///< of all readings shown; null for any, which an isotropic material lets pass
   std::size_t incidences_available = 0;
   bool log = false;
   std::size_t not_shown = 0;  ///< readings that a log axis cannot show, or that lie too far down
@@ -28,6 +30,9 @@ struct PlotPlan {
 
 /// Throws Error (bad_input) for a scan without readings near the plane of incidence.
 [[nodiscard]] PlotPlan plan_plot(const Scan& scan, const PlotOptions& options);
+
+/// The readings whose azimuth of incidence is within half a degree of `phi_i_deg`.
+[[nodiscard]] Scan at_azimuth(const Scan& scan, double phi_i_deg);
 
 /// Where to evaluate a curve: signed theta_r between the plan's ends, at most 1 degree apart, closer and closer towards
 /// the mirror direction, down to a small part of `lobe_deg`.

@@ -47,7 +47,7 @@ Material random_material(std::uint64_t key, std::size_t index) {
   const double dielectric_n = random.uniform(1.3, 2.0);
   for (const auto& [name, wavelength_um] : {std::pair{"R", 0.65}, {"G", 0.55}, {"B", 0.45}}) {
     MaterialChannel channel{
-        .name = name, .wavelength_um = wavelength_um, .n = dielectric_n, .kappa = 0.0, .f0 = {}, .k = {}};
+        .name = name, .wavelength_um = wavelength_um, .n = dielectric_n, .kappa = 0.0, .f0 = {}, .k = {}, .peer_k = {}};
     if (metal) {  // around aluminium's
       channel.n = random.uniform(0.6, 1.5);
       channel.kappa = random.uniform(5.4, 7.8);

@@ -18,28 +18,45 @@
 namespace goniofit {
 namespace {
 
-std::optional<double> surface_truth(const Surface& surface, const std::string& name) {
-  if (name == "sigma_um") return surface.sigma_um;
-  if (name == "tau_um") return surface.tau_um;
-  if (name != "slope") return std::nullopt;
-  if (surface.slope) return surface.slope;
-  if (surface.sigma_um && surface.tau_um) return *surface.sigma_um / *surface.tau_um;
-  return std::nullopt;
+std::optional<double> shared_truth(const Material& truth, const std::string& name) {
+  if (truth.model != surface_model) {
+    const auto found = truth.parameters.find(name);
+    return found == truth.parameters.end() ? std::nullopt : found->second;
+  }
+  Surface surface = truth.surface;
+  const std::optional<double>* const known = surface.find(name);
+  return known == nullptr ? std::nullopt : *known;
 }
 
 std::optional<double> channel_truth(const MaterialChannel& channel, const std::string& name) {
   if (name == "n") return channel.n;
   if (name == "f0") return channel.normal_reflectance();
-  const std::optional<Coefficient> k = parse_name<Coefficient>(name);
-  return k ? channel.coefficient(*k) : std::nullopt;
+  return channel.coefficient(name);
 }
 
 std::optional<double> truth_of(const Material& truth, const FittedParameter& parameter) {
-  if (parameter.channel.empty()) return surface_truth(truth.surface, parameter.name);
+  if (parameter.channel.empty()) return shared_truth(truth, parameter.name);
   for (const MaterialChannel& channel : truth.channels) {
     if (channel.name == parameter.channel) return channel_truth(channel, parameter.name);
   }
   return std::nullopt;
+}
+
+// The truth as a start of the polish: its channels those of the scan. None where another model is fitted, which has no
+// such point.
+std::optional<Material> start_of(const Material& truth, const Scan& scan, const std::string& model) {
+  if (truth.model != model) return std::nullopt;
+  for (const auto& [name, value] : truth.parameters) {
+    if (!value) return std::nullopt;
+  }
+  Material start = truth;
+  start.channels.clear();
+  for (const ScanChannel& channel : scan.channels) {
+    const auto found = std::find_if(truth.channels.begin(), truth.channels.end(),
+                                    [&](const MaterialChannel& c) { return c.name == channel.name; });
+    start.channels.push_back(*found);
+  }
+  return start;
 }
 
 struct Trial {
@@ -54,9 +71,12 @@ Trial run_trial(const Recipe& recipe, const Material& truth, std::uint64_t seed)
   FitSettings settings = recipe.settings;
   if (recipe.optical_constants) use_optical_constants(*recipe.optical_constants, scan, settings);
   FitResult result = fit(scan, settings);
-  const double reachable = polish_from(scan, settings, truth).loss;
-  return {std::move(result.parameters),
-          !result.converged || loss_ratio(scan, result.loss, reachable) > wrong_minimum_ratio};
+  bool failed = !result.converged;
+  if (const std::optional<Material> start = start_of(truth, scan, settings.model)) {
+    const double reachable = polish_from(scan, settings, *start).loss;
+    failed = failed || loss_ratio(scan, result.loss, reachable) > wrong_minimum_ratio;
+  }
+  return {std::move(result.parameters), failed};
 }
 
 /// Groups what the trials found by parameter, in the order of the fit report. Fixed parameters and those without a

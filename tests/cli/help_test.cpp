@@ -1,13 +1,15 @@
 // What the program says of itself.
 
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "cli/program_test.h"
+#include "peers/peers.h"
 
 namespace goniofit::test {
 namespace {
 
-const std::vector<std::string> commands{"inspect", "fit", "simulate", "eval", "verify", "export", "models"};
+const std::vector<std::string> commands{"inspect", "fit", "compare", "simulate", "eval", "verify", "export", "models"};
 
 TEST(Help, NamesEveryCommand) {
   const Outcome help = goniofit({"--help"});
@@ -47,6 +49,9 @@ TEST(Usage, BadUsageIsStatus2WithNothingOnStandardOutput) {
       {{"simulate", "m.json", "--sampling", "hemisphere", "--noise", "-0.1"}, "--noise"},
       {{"simulate", "m.json", "--sampling", "hemisphere", "--noise", "1,2,3"}, "--noise"},
       {{"simulate", "m.json", "--sampling", "hemisphere", "--seed", "x"}, "--seed"},
+      {{"simulate", "m.json", "--sampling", "hemisphere", "--phi-i", "0,x"}, "--phi-i: \"x\" is not a finite number"},
+      {{"compare"}, "no scan"},
+      {{"compare", "s.csv", "--plot", "p.pdf"}, "--plot: a picture needs"},
       {{"verify"}, "nothing to verify"},
       {{"verify", "--random", "3", "--trials", "0"}, "--trials"},
       {{"export", "m.json", "--format", "merl"}, "--format: \"merl\", expected csv, json or exr"},
@@ -74,7 +79,7 @@ TEST(Models, TextAndJsonHoldTheSameNames) {
   const auto model = nlohmann::json::parse(json.out).at("models").at(0);
   std::vector<std::string> effects;
   for (const auto& effect : model.at("effects")) effects.push_back(effect.at("name"));
-  EXPECT_EQ(effects, (std::vector<std::string>{"coh", "dd", "udf", "uds", "fs"}));
+  EXPECT_EQ(effects, (std::vector<std::string>{"coh", "dd", "udf", "uds", "fs", "rough"}));
   for (const auto& p : model.at("parameters")) {
     EXPECT_NE(text.out.find("  " + p.at("name").get<std::string>() + " "), std::string::npos) << p;
   }
@@ -85,6 +90,41 @@ TEST(Models, TextAndJsonHoldTheSameNames) {
   }
   EXPECT_EQ(model.at("parameters").at(0).at("min"), 1e-4);
   EXPECT_EQ(model.at("parameters").at(0).at("max"), 10.0);
+}
+
+TEST(Models, EveryNameThatFilesAcceptIsTold) {
+  const std::string text = goniofit({"models"}).out;
+  const auto model = nlohmann::json::parse(goniofit({"models", "--json"}).out).at("models").at(0);
+  const auto told = [&](const std::string& term) {
+    std::set<std::string> names;
+    for (const auto& tier : model.at("terms").at(term)) names.insert(tier.at("name"));
+    return names;
+  };
+  using Names = std::set<std::string>;
+  EXPECT_EQ(told("shadowing"), (Names{"li-torrance", "smith", "schlick", "none"}));
+  EXPECT_EQ(told("effective_roughness"), (Names{"li-torrance", "he", "none"}));
+  EXPECT_EQ(told("distribution"), (Names{"rough-limit", "he-torrance", "he-torrance-series", "student-t"}));
+  EXPECT_EQ(told("rough"), (Names{"functional", "integral", "qualitative"}));
+  EXPECT_EQ(told("anisotropy"), (Names{"consistent", "printed"}));
+  for (const PeerInfo& peer : peer_catalogue()) {
+    EXPECT_NE(text.find("  " + std::string(peer.name) + " "), std::string::npos) << peer.name;
+  }
+}
+
+TEST(Models, APeerTellsItsParametersAndBounds) {
+  const auto models = nlohmann::json::parse(goniofit({"models", "--json"}).out).at("models");
+  ASSERT_EQ(models.size(), 1 + peer_catalogue().size());
+  const auto& blinn = models.at(2);
+  EXPECT_EQ(blinn.at("name"), "blinn-phong");
+  EXPECT_EQ(blinn.at("reads_fresnel"), false);
+  const auto& exponent = blinn.at("parameters").at(0);
+  EXPECT_EQ(exponent.at("name"), "exponent");
+  EXPECT_EQ(exponent.at("scope"), "shared");
+  EXPECT_EQ(exponent.at("max"), 1e6);
+  const auto& specular = blinn.at("parameters").at(2);
+  EXPECT_EQ(specular.at("name"), "k_s");
+  EXPECT_EQ(specular.at("scope"), "channel");
+  EXPECT_TRUE(specular.at("max").is_null());
 }
 
 }  // namespace

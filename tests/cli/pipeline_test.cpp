@@ -1,5 +1,6 @@
 // The commands one after another, as a user chains them.
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -151,6 +152,160 @@ TEST_F(Pipeline, EvalKeepsTheInputAsItStood) {
   EXPECT_EQ(rows[2].rfind(";30.0;0;30;90;0.", 0), 0U) << rows[2];
   add("t.csv", "theta_i,theta_r,note\n10,20,\n");
   EXPECT_EQ(lines(run_here({"eval", "m.json", "t.csv"}).out).at(1).rfind("10,20,,0.", 0), 0U) << "an empty field stays";
+}
+
+TEST_F(Pipeline, APeerFromSimulationToExport) {
+  add("p.json", to_json(anisotropic_ggx()));
+  must({"simulate", "p.json", "--sampling", "incidence-plane", "-o", "p.csv"});
+  must({"fit", "p.csv", "--model", "ggx-anisotropic", "--n", "1.6", "-o", "f.json", "--table", "t.csv", "--plot",
+        "p.svg"});
+  const Material fitted = read_material(folder_ / "f.json");
+  EXPECT_EQ(fitted.model, "ggx-anisotropic");
+  EXPECT_NEAR(fitted.parameters.at("alpha_x").value(), 0.1, 1e-6);
+  EXPECT_NEAR(fitted.parameters.at("alpha_y").value(), 0.3, 1e-6);
+  EXPECT_NEAR(fitted.channels[1].coefficient("k_s").value(), 0.75, 1e-6);
+  add("d.csv", "theta_i,phi_i,theta_r,phi_r\n30,0,40,180\n30,90,40,270\n");
+  const std::vector<std::string> rows = lines(run_here({"eval", "p.json", "d.csv"}).out);
+  ASSERT_EQ(rows.size(), 3U);
+  const Evaluator evaluator(anisotropic_ggx());
+  EXPECT_EQ(std::stod(cells(rows[2])[4]), evaluator.value(make_pair({30, 90, 40, 270}), 0));
+  EXPECT_NE(cells(rows[1])[4], cells(rows[2])[4]);
+  const Outcome exr = run_here({"export", "p.json", "--format", "exr", "-o", "p.exr"});
+  EXPECT_EQ(exr.status, 2);
+  EXPECT_NE(exr.err.find("an anisotropic material cannot be tabulated"), std::string::npos) << exr.err;
+  must({"export", "p.json", "m.json", "--format", "csv", "-o", "both.csv"});
+}
+
+TEST_F(Pipeline, NewTiersAndFormsReachTheMaterial) {
+  Material m = rough_plaster();
+  m.surface.slope_y = 0.15;
+  add("m.json", to_json(m));
+  must({"simulate", "m.json", "--sampling", "incidence-plane", "-o", "s.csv"});
+  must({"fit", "s.csv", "--components", "dd,rough", "--anisotropic", "--rough-form", "functional", "--shadowing",
+        "li-torrance", "-o", "f.json"});
+  const Material fitted = read_material(folder_ / "f.json");
+  EXPECT_NEAR(fitted.surface.slope_y.value(), 0.15, 1e-5);
+  EXPECT_NEAR(fitted.surface.facet_slope_deg.value(), 25.0, 1e-3);
+  EXPECT_NEAR(fitted.channels[0].coefficient(Coefficient::rho).value(), 0.82, 1e-4);
+  must({"fit", "s.csv", "--components", "dd,udf", "--terms", "he-torrance", "--distribution", "rough-limit",
+        "--anisotropy", "printed", "--rough-form", "qualitative", "--anisotropic", "-o", "g.json"});
+  const Material other = read_material(folder_ / "g.json");
+  EXPECT_EQ(other.terms, (Terms{FresnelTier::exact, ShadowingTier::smith, EffectiveRoughnessTier::he,
+                                DistributionTier::rough_limit}));
+  EXPECT_EQ(other.forms.rough, RoughForm::qualitative);
+  EXPECT_EQ(other.forms.anisotropy, AnisotropyForm::printed);
+}
+
+TEST_F(Pipeline, LongTailsAreFitted) {
+  add("m.json", to_json(long_tailed_paint()));
+  must({"simulate", "m.json", "--sampling", "incidence-plane", "-o", "s.csv"});
+  must({"fit", "s.csv", "--components", "dd,uds,fs", "--distribution", "student-t", "-o", "f.json"});
+  const Material fitted = read_material(folder_ / "f.json");
+  EXPECT_EQ(fitted.terms.distribution, DistributionTier::student_t);
+  EXPECT_NEAR(fitted.surface.tail.value(), 1.8, 1e-4);
+}
+
+TEST_F(Pipeline, AFlagsModelWinsOverTheRecipes) {
+  add_scan("s.csv");
+  add("r.toml", "components = [\"dd\", \"uds\"]\nterms = \"he-torrance\"\n[optics]\nn = 1.7\n");
+  must({"fit", "s.csv", "--recipe", "r.toml", "--model", "ggx", "-o", "f.json"});
+  const Material fitted = read_material(folder_ / "f.json");
+  EXPECT_EQ(fitted.model, "ggx");
+  EXPECT_EQ(fitted.terms.fresnel, FresnelTier::exact) << "the one term that it has";
+}
+
+TEST_F(Pipeline, ValuesThatAreNotTheFormulasAreCounted) {
+  Material m = rough_plaster();
+  m.surface.facet_slope_deg = 70.0;
+  add("m.json", to_json(m));
+  add("d.csv", "theta_i,theta_r\n85,85\n80,84\n0,0\n");
+  const Outcome cut = run_here({"eval", "m.json", "d.csv"});
+  EXPECT_EQ(cut.status, 0);
+  EXPECT_EQ(cut.err.rfind("m.json: warning: 2 directions where the functional form of rough is negative", 0), 0U)
+      << cut.err;
+  EXPECT_EQ(lines(cut.out).size(), 4U);
+  const Outcome simulated = run_here({"simulate", "m.json", "--sampling", "incidence-plane", "-o", "s.csv"});
+  EXPECT_NE(simulated.err.find("functional form of rough"), std::string::npos) << simulated.err;
+  Material mirror = garnet_red_paint_13();
+  mirror.surface = slope_alone(1e-6);
+  add("m.json", to_json(mirror));
+  add("d.csv", "theta_i,theta_r\n89.99999999999,89.99999999999\n0,10\n");
+  const Outcome plain = run_here({"eval", "m.json", "d.csv"});
+  EXPECT_EQ(plain.status, 0);
+  EXPECT_EQ(plain.err.find("functional"), std::string::npos) << plain.err;
+}
+
+TEST_F(Pipeline, CompareSortsByLossAndTellsWhatWasFree) {
+  add_scan("s.csv");
+  const std::vector<std::string> arguments{"compare",      "s.csv",     "--n",      "1.7",
+                                           "--components", "dd,uds,fs", "--models", "lambert,ggx,rough+dd,li-torrance",
+                                           "--json"};
+  const Outcome outcome = run_here(arguments);
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const auto rows = nlohmann::json::parse(outcome.out).at("rows");
+  ASSERT_EQ(rows.size(), 4U);
+  EXPECT_EQ(rows[0].at("model"), "li-torrance");
+  EXPECT_EQ(rows[0].at("relative_loss"), 1.0);
+  EXPECT_EQ(rows[0].at("free_parameters"), 10) << "slope and three coefficients a channel";
+  EXPECT_EQ(rows[3].at("model"), "lambert");
+  EXPECT_EQ(rows[3].at("free_parameters"), 3);
+  for (std::size_t i = 1; i < rows.size(); ++i) EXPECT_GE(rows[i].at("loss"), rows[i - 1].at("loss"));
+  // What each says is what `fit` says.
+  const auto alone = nlohmann::json::parse(run_here({"fit", "s.csv", "--n", "1.7", "--model", "ggx", "--json"}).out);
+  const auto ggx = std::find_if(rows.begin(), rows.end(), [](const auto& row) { return row.at("model") == "ggx"; });
+  EXPECT_EQ(ggx->at("loss"), alone.at("loss"));
+  auto again = nlohmann::json::parse(run_here(arguments).out).at("rows");
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    again[i]["seconds"] = rows[i].at("seconds");
+    EXPECT_EQ(again[i], rows[i]) << "deterministic";
+  }
+}
+
+TEST_F(Pipeline, CompareDrawsAndTabulates) {
+  add_scan("s.csv");
+  const Outcome outcome = run_here(
+      {"compare", "s.csv", "--models", "lambert,ward", "--fix", "alpha=0.2", "--plot", "c.svg", "--plot", "c.png"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_LT(outcome.out.find("ward"), outcome.out.find("lambert"));
+  EXPECT_NE(outcome.out.find("alpha 0.2"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("lambert has no parameter alpha and goes without its setting"), std::string::npos)
+      << outcome.out;
+  EXPECT_NE(content("c.svg").find(">ward<"), std::string::npos);
+  EXPECT_EQ(content("c.png").substr(1, 3), "PNG");
+}
+
+TEST_F(Pipeline, CompareFreesTheIndexWhereItIsRead) {
+  add_scan("s.csv");
+  const auto rows =
+      nlohmann::json::parse(run_here({"compare", "s.csv", "--models", "lambert,ggx", "--free", "n", "--json"}).out)
+          .at("rows");
+  ASSERT_EQ(rows.size(), 2U);
+  EXPECT_EQ(rows[0].at("model"), "ggx");
+  EXPECT_EQ(rows[1].at("free_parameters"), 3) << "Lambert reads no n";
+  std::size_t indices = 0;
+  for (const auto& p : rows[0].at("parameters")) indices += p.at("name") == "n" ? 1 : 0;
+  EXPECT_EQ(indices, 3U);
+}
+
+TEST_F(Pipeline, CompareRefusesWhatItCannotCompare) {
+  add_scan("s.csv");
+  const auto complaint = [&](std::vector<std::string> flags) {
+    flags.insert(flags.begin(), {"compare", "s.csv"});
+    const Outcome outcome = run_here(flags);
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_EQ(outcome.out, "");
+    return outcome.err;
+  };
+  EXPECT_EQ(complaint({"--models", "phong"}).rfind("model \"phong\": no such model, expected one that", 0), 0U);
+  EXPECT_EQ(complaint({"--models", "ward,ward"}), "model \"ward\" is named twice\n");
+  EXPECT_EQ(complaint({"--models", "ward", "--fix", "slope=1"}),
+            "parameter slope: none of the models compared has it\n");
+  EXPECT_EQ(complaint({"--models", "ward", "--fix", "alpha=9"}),
+            "model ward: parameter alpha: value 9 is out of range, expected [0.001, 2]\n");
+  add("bare.csv", "theta_i,theta_r,R\n30,30,1\n30,20,0.5\n45,45,1\n");
+  const Outcome bare = run_here({"compare", "bare.csv", "--models", "he-torrance"});
+  EXPECT_EQ(bare.status, 2);
+  EXPECT_EQ(bare.err.rfind("model he-torrance: distribution he-torrance needs the wavelength", 0), 0U) << bare.err;
 }
 
 TEST_F(Pipeline, VerifyFailsWhereABoundIsMissed) {

@@ -2,6 +2,7 @@
 
 #include <ImfChannelList.h>
 #include <ImfDoubleAttribute.h>
+#include <ImfFloatVectorAttribute.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
 #include <ImfIntAttribute.h>
@@ -33,16 +34,10 @@ namespace goniofit {
 namespace {
 
 using test::error_message;
-
-// Of which, as a fit without coh gives it, only the slope is known.
-Material garnet_red_paint() {
-  Material m = test::garnet_red_paint_13();
-  m.surface = {m.surface.slope, std::nullopt, std::nullopt};
-  return m;
-}
+using test::garnet_by_slope;
 
 Material rough_paint() {
-  Material m = garnet_red_paint();
+  Material m = garnet_by_slope();
   m.surface.slope = 0.3;
   return m;
 }
@@ -125,7 +120,7 @@ std::vector<std::vector<double>> error_scales(const BrdfTable& table) {
 // Other directions than those of the statement: the same but for what chance leaves of 5000 samples.
 TEST(BrdfTable, AgreesWithTheMaterialToTheStatedErrors) {
   for (const double slope : {0.1, 0.2, 0.4}) {
-    Material m = garnet_red_paint();
+    Material m = garnet_by_slope();
     m.surface.slope = slope;
     const Evaluator evaluator(m);
     const BrdfTable table = tabulate(m, {.size = 64, .incidence_step_deg = 5.0});
@@ -165,7 +160,7 @@ TEST(BrdfTable, OnlyTheDifferenceOfAzimuthsCounts) {
 
 // The documented layout: retro side to the right, mirror side to the left.
 TEST(BrdfTable, TheMirrorLobeIsOnTheLeft) {
-  Material m = garnet_red_paint();
+  Material m = garnet_by_slope();
   m.components = {Effect::dd};
   const BrdfTable table = tabulate(m, {.size = 64, .incidence_step_deg = 42.5});
   const std::vector<float>& image = table.values[1][0];
@@ -187,7 +182,7 @@ TEST(BrdfTable, EdgesOfTheHemisphere) {
 }
 
 TEST(Tabulate, ValuesBeyondFloatsStandAsTheLargest) {
-  Material m = garnet_red_paint();
+  Material m = garnet_by_slope();
   m.components = {Effect::udf};
   for (MaterialChannel& c : m.channels) c.coefficient(Coefficient::k_udf) = 1e60;
   EXPECT_EQ(tabulate(m, small).values[0][0][0], std::numeric_limits<float>::max());
@@ -203,6 +198,27 @@ TEST(Tabulate, LeavesCohOut) {
   m.components = {Effect::coh};
   EXPECT_EQ(error_message([&] { (void)tabulate(m, small); }),
             "2 a material of coh alone has nothing to tabulate: its cone is narrower than a cell");
+}
+
+TEST(Tabulate, APeerIsAMaterialLikeOthers) {
+  Material m = test::anisotropic_ggx();
+  m.parameters["alpha_y"] = 0.1;  // two widths, but one value
+  const Evaluator evaluator(m);
+  const BrdfTable table = tabulate(m, small);
+  const HemispherePoint cell = square_cell_centres(16)[77];
+  const AnglePair angles{42.5, 0.0, cell.theta_deg, cell.phi_deg};
+  EXPECT_EQ(table.values[1][0][77], static_cast<float>(evaluator.value(make_pair(angles), 0)));
+}
+
+TEST(Tabulate, RefusesWhatOneAzimuthDoesNotShow) {
+  const std::string complaint = "2 an anisotropic material cannot be tabulated: the table has one azimuth of incidence";
+  Material surface = rough_paint();
+  surface.surface.slope_y = 0.5;
+  Material narrow = test::anisotropic_ggx();
+  narrow.parameters = {{"alpha_x", 0.001}, {"alpha_y", 0.0011}};
+  for (const Material& m : {surface, test::anisotropic_ggx(), narrow}) {
+    EXPECT_EQ(error_message([&] { (void)tabulate(m, small); }), complaint) << m.name;
+  }
 }
 
 TEST(Tabulate, RefusesOptionsOutOfRange) {
@@ -249,9 +265,31 @@ TEST(Exr, AttributesCarryTheMaterial) {
     EXPECT_EQ(parse_material(header.typedAttribute<Imf::StringAttribute>("goniofit.material").value(), "attribute"), m);
     EXPECT_EQ(header.typedAttribute<Imf::StringAttribute>("goniofit.components").value(), "coh dd uds fs");
     EXPECT_EQ(header.typedAttribute<Imf::DoubleAttribute>("goniofit.slope").value(), 0.3);
+    EXPECT_EQ(header.typedAttribute<Imf::StringAttribute>("goniofit.model").value(), "surface");
+    EXPECT_EQ(header.typedAttribute<Imf::DoubleAttribute>("goniofit.sigma_um").value(), 0.05);
+    EXPECT_EQ(header.typedAttribute<Imf::FloatVectorAttribute>("goniofit.k_dd").value(),
+              (std::vector<float>{0.59F, 0.72F, 0.69F}));
+    EXPECT_EQ(header.findTypedAttribute<Imf::DoubleAttribute>("goniofit.tail"), nullptr);
     EXPECT_EQ(header.typedAttribute<Imf::StringAttribute>("goniofit.left_out").value().substr(0, 4), "coh:");
   }
   EXPECT_EQ(file.header(1).name(), "theta_i_042.50000");
+}
+
+TEST(Exr, AttributesOfAPeerAreItsOwn) {
+  const test::ScratchDir folder;
+  Material m = test::anisotropic_ggx();
+  m.parameters["alpha_y"] = 0.1;
+  m.channels[1].peer_k["k_s"].reset();
+  write_exr(folder / "t.exr", m, tabulate(m, small));
+  Imf::MultiPartInputFile file((folder / "t.exr").c_str());
+  const Imf::Header& header = file.header(0);
+  EXPECT_EQ(header.typedAttribute<Imf::StringAttribute>("goniofit.model").value(), "ggx-anisotropic");
+  EXPECT_EQ(header.typedAttribute<Imf::DoubleAttribute>("goniofit.alpha_y").value(), 0.1);
+  const std::vector<float>& k_s = header.typedAttribute<Imf::FloatVectorAttribute>("goniofit.k_s").value();
+  ASSERT_EQ(k_s.size(), 2U);
+  EXPECT_EQ(k_s[0], 0.75F);
+  EXPECT_TRUE(std::isnan(k_s[1])) << "not known";
+  EXPECT_EQ(header.findTypedAttribute<Imf::DoubleAttribute>("goniofit.slope"), nullptr);
 }
 
 TEST(Exr, NothingIsLeftWhereTheFileCannotBeWritten) {

@@ -1,31 +1,25 @@
 #include "io/material_io.h"
 
 #include <gtest/gtest.h>
-#include <rapidcheck/gtest.h>
 
 #include <fstream>
 #include <limits>
 #include <optional>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "support/error_message.h"
 #include "support/materials.h"
 #include "support/paths.h"
+#include "support/replaced.h"
 
 namespace goniofit {
 
 namespace {
 
 using test::error_message;
-
-// Of which, as a fit without coh gives it, only the slope is known.
-Material garnet_red_paint() {
-  Material m = test::garnet_red_paint_13();
-  m.surface = {m.surface.slope, std::nullopt, std::nullopt};
-  return m;
-}
+using test::garnet_by_slope;
+using test::replaced;
 
 // Every key of the format.
 const std::string complete = R"({
@@ -91,18 +85,12 @@ const std::string complete = R"({
 }
 )";
 
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return text.replace(at, from.size(), to);
-}
-
 TEST(MaterialIo, ReadsEveryKey) {
   const Material m = parse_material(complete, "m.json");
   EXPECT_EQ(m.name, "Garnet Red Paint #13");
   EXPECT_EQ(m.components, (EffectSet{Effect::dd, Effect::uds, Effect::fs}));
   EXPECT_EQ(m.terms, Terms{});
-  EXPECT_EQ(m.surface, (Surface{0.0854, std::nullopt, std::nullopt}));
+  EXPECT_EQ(m.surface, test::slope_alone(0.0854));
   ASSERT_EQ(m.channels.size(), 1U);
   EXPECT_EQ(m.channels[0].coefficient(Coefficient::k_fs), 1.1);
   EXPECT_EQ(m.channels[0].wavelength_um, 0.65);
@@ -134,13 +122,48 @@ TEST(MaterialIo, ReadsOtherTiersAndForms) {
   const Material m = parse_material(text, "m.json");
   EXPECT_EQ(m.terms.fresnel, FresnelTier::exact);
   EXPECT_EQ(m.terms.shadowing, ShadowingTier::none);
-  EXPECT_EQ(m.fs_form, FsForm::reciprocal);
+  EXPECT_EQ(m.forms.fs, FsForm::reciprocal);
+}
+
+TEST(MaterialIo, ReadsHesTermsAndAnAnisotropicSurface) {
+  std::string text = replaced(complete, "\"fresnel\": \"schlick\"", "\"fresnel\": \"exact\"");
+  text = replaced(text, "\"shadowing\": \"li-torrance\"", "\"shadowing\": \"smith\"");
+  text = replaced(text, "\"effective_roughness\": \"li-torrance\"", "\"effective_roughness\": \"he\"");
+  text = replaced(text, "rough-limit", "he-torrance");
+  text = replaced(text,
+                  "\"slope\": 0.0854,\n    \"sigma_um\": null,\n    \"tau_um\": null,\n    \"slope_y\": null,\n    "
+                  "\"tau_y_um\": null",
+                  "\"sigma_um\": 0.5, \"tau_um\": 5.0, \"tau_y_um\": 2.0");
+  text = replaced(text, "consistent", "printed");
+  const Material m = parse_material(text, "m.json");
+  EXPECT_EQ(m.terms, (Terms{FresnelTier::exact, ShadowingTier::smith, EffectiveRoughnessTier::he,
+                            DistributionTier::he_torrance}));
+  EXPECT_EQ(m.surface.slope, 0.1) << "derived";
+  EXPECT_EQ(m.surface.slope_y, 0.25) << "derived";
+  EXPECT_EQ(m.forms.anisotropy, AnisotropyForm::printed);
+  EXPECT_EQ(parse_material(to_json(m), "m.json"), m);
+}
+
+TEST(MaterialIo, ReadsGroovesAndLongTails) {
+  std::string text = replaced(complete, "\"dd\",", "\"dd\", \"rough\",");
+  text = replaced(text, "rough-limit", "student-t");
+  text = replaced(text, "\"tail\": null", "\"tail\": 2.5");
+  text = replaced(text, "\"facet_slope_deg\": null", "\"facet_slope_deg\": 25");
+  text = replaced(text, "functional", "integral");
+  text = replaced(text, "\"rho\": 0.0", "\"rho\": 0.4");
+  const Material m = parse_material(text, "m.json");
+  EXPECT_TRUE(m.components.has(Effect::rough));
+  EXPECT_EQ(m.terms.distribution, DistributionTier::student_t);
+  EXPECT_EQ(m.surface.tail, 2.5);
+  EXPECT_EQ(m.surface.facet_slope_deg, 25.0);
+  EXPECT_EQ(m.forms.rough, RoughForm::integral);
+  EXPECT_EQ(m.channels[0].coefficient(Coefficient::rho), 0.4);
 }
 
 TEST(MaterialIo, FilesGoThroughTheSameText) {
   const test::ScratchDir folder;
-  write_material(folder / "paint.json", garnet_red_paint());
-  EXPECT_EQ(read_material(folder / "paint.json"), garnet_red_paint());
+  write_material(folder / "paint.json", garnet_by_slope());
+  EXPECT_EQ(read_material(folder / "paint.json"), garnet_by_slope());
 }
 
 TEST(MaterialIo, MissingFileIsNamed) {
@@ -155,7 +178,7 @@ TEST(MaterialIo, FolderIsNoMaterial) {
 }
 
 TEST(MaterialIo, NothingUnreadableIsWritten) {
-  Material m = garnet_red_paint();
+  Material m = garnet_by_slope();
   m.surface.slope = std::numeric_limits<double>::quiet_NaN();
   const test::ScratchDir folder;
   EXPECT_EQ(error_message([&] { write_material(folder / "m.json", m); }),
@@ -164,7 +187,7 @@ TEST(MaterialIo, NothingUnreadableIsWritten) {
 }
 
 TEST(MaterialIo, NameThatIsNotUtf8IsStillWritten) {
-  Material m = garnet_red_paint();
+  Material m = garnet_by_slope();
   m.name = "Bl\xe4ulich";
   EXPECT_EQ(parse_material(to_json(m), "m.json").name, "Bl\xef\xbf\xbdulich");
 }
@@ -195,24 +218,18 @@ const std::vector<BadMaterial> bad_materials{
     {"FractionalVersion", "\"version\": 1", "\"version\": 1.5",
      ": /version: is \"1.5\", expected a whole number of at least 0"},
     {"OtherModel", "\"version\": 1", "\"version\": 1, \"model\": \"ward\"",
-     ": /model: \"ward\" is not available, expected \"surface\""},
+     ": /forms: is not a known key, expected format, version, name, model, components, terms, parameters, channels, "
+     "solid_angle_sr or fit"},
     {"NameOfWrongType", "\"Garnet Red Paint #13\"", "13", ": /name: is a number, expected a string"},
     {"UnknownKey", "\"solid_angle_sr\"", "\"solid_angle\"",
      ": /solid_angle: is not a known key, expected format, version, name, model, components, terms, surface, forms, "
      "channels, solid_angle_sr or fit"},
     {"NoComponents", components, "[]",
-     ": /components: no effect is named, expected at least one of coh, dd, udf, uds or fs"},
+     ": /components: no effect is named, expected at least one of coh, dd, udf, uds, fs or rough"},
     {"ComponentsOfWrongType", components, "\"dd\"", ": /components: is a string, expected an array"},
-    {"UnknownEffect", "\"uds\"", "\"ud\"", ": /components/1: \"ud\" is not known, expected coh, dd, udf, uds or fs"},
-    {"LaterEffect", "\"uds\"", "\"rough\"",
-     ": /components/1: \"rough\" is not available, expected coh, dd, udf, uds or fs"},
+    {"UnknownEffect", "\"uds\"", "\"ud\"",
+     ": /components/1: \"ud\" is not known, expected coh, dd, udf, uds, fs or rough"},
     {"EffectTwice", "\"uds\"", "\"dd\"", ": /components/1: \"dd\" is named twice, expected each effect once"},
-    {"LaterShadowing", "\"shadowing\": \"li-torrance\"", "\"shadowing\": \"smith\"",
-     ": /terms/shadowing: \"smith\" is not available, expected li-torrance or none"},
-    {"LaterRoughness", "\"effective_roughness\": \"li-torrance\"", "\"effective_roughness\": \"he\"",
-     ": /terms/effective_roughness: \"he\" is not available, expected li-torrance or none"},
-    {"LaterDistribution", "rough-limit", "student-t",
-     ": /terms/distribution: \"student-t\" is not available, expected rough-limit"},
     {"UnknownFresnel", "\"schlick\"", "\"shlick\"",
      ": /terms/fresnel: \"shlick\" is not known, expected schlick, exact or none"},
     {"UnknownTerm", "\"fresnel\"", "\"Fresnel\"",
@@ -223,10 +240,27 @@ const std::vector<BadMaterial> bad_materials{
     {"SlopeMissing", "0.0854", "null", ": /surface/slope: is not given, expected a number: dd reads it"},
     {"SlopeDisagrees", "\"sigma_um\": null,\n    \"tau_um\": null", "\"sigma_um\": 0.7,\n    \"tau_um\": 7.0",
      ": /surface/slope: is 0.0854, expected sigma_um / tau_um = 0.09999999999999999 within 1e-6 of itself"},
-    {"Anisotropic", "\"slope_y\": null", "\"slope_y\": 0.1", ": /surface/slope_y: is not available, expected null"},
-    {"Tail", "\"tail\": null", "\"tail\": 2", ": /surface/tail: is not available, expected null"},
-    {"LaterRoughForm", "functional", "integral",
-     ": /forms/rough: \"integral\" is not available, expected \"functional\""},
+    {"UnknownShadowing", "\"shadowing\": \"li-torrance\"", "\"shadowing\": \"Smith\"",
+     ": /terms/shadowing: \"Smith\" is not known, expected li-torrance, smith, schlick or none"},
+    {"UnknownRoughness", "\"effective_roughness\": \"li-torrance\"", "\"effective_roughness\": \"smith\"",
+     ": /terms/effective_roughness: \"smith\" is not known, expected li-torrance, he or none"},
+    {"UnknownDistribution", "rough-limit", "ggx",
+     ": /terms/distribution: \"ggx\" is not known, expected rough-limit, he-torrance, he-torrance-series or student-t"},
+    {"TailOfOne", "\"tail\": null", "\"tail\": 1", ": /surface/tail: is 1, expected a finite number above 1"},
+    {"TauYAlone", "\"tau_y_um\": null", "\"tau_y_um\": 2",
+     ": /surface/slope_y: is not given though tau_y_um is, expected both"},
+    {"UnknownSurfaceKey", "\"tail\"", "\"gamma\"",
+     ": /surface/gamma: is not a known key, expected slope, sigma_um, tau_um, slope_y, tau_y_um, tail or "
+     "facet_slope_deg"},
+    {"UnknownRoughForm", "functional", "exact",
+     ": /forms/rough: \"exact\" is not known, expected functional, integral or qualitative"},
+    {"UnknownAnisotropyForm", "consistent", "mean",
+     ": /forms/anisotropy: \"mean\" is not known, expected consistent or printed"},
+    {"ParametersOfTheSurface", "\"forms\"", "\"parameters\": {}, \"forms\"",
+     ": /parameters: is not a known key, expected format, version, name, model, components, terms, surface, forms, "
+     "channels, solid_angle_sr or fit"},
+    {"RhoNegative", "\"rho\": 0.0", "\"rho\": -0.5",
+     ": /channels/0/rho: is -0.5, expected a finite number of at least 0"},
     {"UnknownFsForm", "\"printed\"", "\"Printed\"",
      ": /forms/fs: \"Printed\" is not known, expected printed or reciprocal"},
     {"ChannelWithoutName", "\"name\": \"R\",", "", ": /channels/0/name: is missing"},
@@ -235,7 +269,6 @@ const std::vector<BadMaterial> bad_materials{
      "rho"},
     {"CoefficientNegative", "0.59", "-0.59", ": /channels/0/k_dd: is -0.59, expected a finite number of at least 0"},
     {"CoefficientBoolean", "0.59", "true", ": /channels/0/k_dd: is a boolean, expected a number or null"},
-    {"Rho", "\"rho\": 0.0", "\"rho\": 0.5", ": /channels/0/rho: is not available, expected 0 or null"},
     {"NumberBeyondDouble", "0.59", "1e999", ": /channels/0/k_dd: is a number beyond 1.8e308, expected a smaller one"},
     {"KeyTwice", "\"k_udf\": 0.0", "\"k_dd\": 0.0", ": /channels/0/k_dd: is given twice, expected each key once"},
     {"SolidAngleNull", "0.0005", "null", ": /solid_angle_sr: is null, expected a number"},
@@ -245,8 +278,8 @@ const std::vector<BadMaterial> bad_materials{
      ": /fit/converged: is a number, expected true or false"},
     {"LossMissing", "\"loss\": 0.25,", "", ": /fit/loss: is missing"},
     {"UncertaintyOfNothing", "\"slope\": 0.001", "\"k_dd\": 0.001",
-     ": /fit/uncertainty/k_dd: is not a shared parameter, expected slope, sigma_um or tau_um, or the object of a "
-     "channel"},
+     ": /fit/uncertainty/k_dd: is not a shared parameter, expected slope, sigma_um, tau_um, slope_y, tau_y_um, tail or "
+     "facet_slope_deg, or the object of a channel"},
     {"UncertaintyOfNoChannel", "\"R\": {", "\"G\": {", ": /fit/uncertainty/G: is not a channel of this material"},
     {"IdentifiableOfWrongType", "\"R.k_fs\": false", "\"R.k_fs\": null",
      ": /fit/identifiable/R.k_fs: is null, expected true or false"},
@@ -289,148 +322,6 @@ TEST(MaterialIo, TruncatedFilesAreRefused) {
   for (std::size_t length = 0; length + 2 < complete.size(); length += 7) {
     EXPECT_THROW((void)parse_material(std::string_view(complete).substr(0, length), "m.json"), Error) << length;
   }
-}
-
-// ---- round trips
-
-double any_number(double low, double high) {
-  const auto bits = *rc::gen::arbitrary<std::uint32_t>();
-  return low + (high - low) * (static_cast<double>(bits) / 4294967296.0);
-}
-
-std::optional<double> maybe(double low, double high) {
-  if (*rc::gen::arbitrary<bool>()) return std::nullopt;
-  return any_number(low, high);
-}
-
-MaterialChannel any_channel(const std::string& name, bool with_f0) {
-  MaterialChannel channel;
-  channel.name = name;
-  channel.wavelength_um = any_number(0.3, 12.0);
-  if (with_f0) {
-    channel.f0 = any_number(0.0, 1.0);
-  } else {
-    channel.n = any_number(0.01, 5.0);
-    channel.kappa = maybe(0.0, 10.0);
-  }
-  for (const Coefficient c : all_coefficients) channel.coefficient(c) = maybe(0.0, 3.0);
-  return channel;
-}
-
-FitSummary any_fit(const std::vector<MaterialChannel>& channels) {
-  FitSummary fit;
-  fit.loss = any_number(0.0, 1e9);
-  fit.rms = any_number(0.0, 1e-9);
-  fit.samples = *rc::gen::arbitrary<std::uint32_t>();
-  fit.converged = *rc::gen::arbitrary<bool>();
-  fit.shared_uncertainty["slope"] = any_number(0.0, 1e-3);
-  fit.identifiable["sigma_um"] = *rc::gen::arbitrary<bool>();
-  for (const MaterialChannel& channel : channels) {
-    fit.channel_uncertainty[channel.name]["k_dd"] = any_number(0.0, 1.0);
-    fit.identifiable[channel.name + ".k_dd"] = *rc::gen::arbitrary<bool>();
-  }
-  return fit;
-}
-
-Material any_material() {
-  Material m;
-  m.name = *rc::gen::string<std::string>();
-  for (char& c : m.name) c = static_cast<char>(c & 0x7f);  // any ASCII, controls and quotes included
-  m.components.insert(*rc::gen::element(Effect::coh, Effect::dd, Effect::udf, Effect::uds, Effect::fs));
-  m.components.insert(*rc::gen::element(Effect::coh, Effect::dd, Effect::udf, Effect::uds, Effect::fs));
-  m.terms.fresnel = *rc::gen::element(FresnelTier::schlick, FresnelTier::exact, FresnelTier::none);
-  m.terms.shadowing = *rc::gen::element(ShadowingTier::li_torrance, ShadowingTier::none);
-  m.terms.effective_roughness = *rc::gen::element(EffectiveRoughnessTier::li_torrance, EffectiveRoughnessTier::none);
-  m.fs_form = *rc::gen::element(FsForm::printed, FsForm::reciprocal);
-  m.surface.sigma_um = any_number(0.01, 2.0);
-  m.surface.tau_um = maybe(1.0, 30.0);
-  m.surface.slope = m.surface.tau_um ? *m.surface.sigma_um / *m.surface.tau_um : any_number(1e-4, 1.0);
-  m.solid_angle_sr = any_number(1e-6, 1e-2);
-  const bool with_f0 = m.terms.fresnel != FresnelTier::exact && *rc::gen::arbitrary<bool>();
-  const int channels = *rc::gen::inRange(1, 5);
-  for (int i = 0; i < channels; ++i) m.channels.push_back(any_channel("c/" + std::to_string(i) + ".~\"", with_f0));
-  if (*rc::gen::arbitrary<bool>()) m.fit = any_fit(m.channels);
-  return m;
-}
-
-RC_GTEST_PROP(MaterialIo, RoundTripIsExact, ()) {
-  const Material m = any_material();
-  const std::string text = to_json(m);
-  const Material back = parse_material(text, "m.json");
-  RC_ASSERT(back == m);
-  RC_ASSERT(to_json(back) == text);
-}
-
-// ---- the CSV table
-
-std::vector<std::string> cells(const std::string& line) {
-  std::vector<std::string> out{""};
-  bool inside = false;
-  for (const char c : line) {
-    if (c == '"')
-      inside = !inside;
-    else if (c == ',' && !inside)
-      out.emplace_back();
-    else
-      out.back() += c;
-  }
-  return out;
-}
-
-TEST(MaterialTable, OneRowAChannel) {
-  Material m = garnet_red_paint();
-  m.name = "red, \"garnet\"";
-  m.fit.emplace();
-  m.fit->loss = 0.125;
-  m.fit->samples = 42;
-  m.fit->shared_uncertainty["slope"] = 0.001;
-  m.fit->channel_uncertainty["G"]["k_fs"] = 0.17;
-  std::istringstream table(to_csv({m, parse_material(complete, "m.json")}));
-  std::vector<std::map<std::string, std::string>> rows;
-  std::string line;
-  ASSERT_TRUE(std::getline(table, line));
-  const std::vector<std::string> header = cells(line);
-  while (std::getline(table, line)) {
-    const std::vector<std::string> row = cells(line);
-    ASSERT_EQ(row.size(), header.size()) << line;
-    auto& by_name = rows.emplace_back();
-    for (std::size_t i = 0; i < row.size(); ++i) by_name[header[i]] = row[i];
-  }
-  ASSERT_EQ(rows.size(), 4U);
-  EXPECT_EQ(rows[1]["name"], "red, garnet");  // the reader above drops the doubled quotes
-  EXPECT_EQ(rows[1]["channel"], "G");
-  EXPECT_EQ(rows[1]["components"], "dd uds fs");
-  EXPECT_EQ(rows[1]["terms"],
-            "fresnel=schlick shadowing=li-torrance effective_roughness=li-torrance distribution=rough-limit");
-  EXPECT_EQ(rows[1]["k_dd"], "0.72");
-  EXPECT_EQ(rows[1]["u_k_dd"], "");
-  EXPECT_EQ(rows[1]["u_k_fs"], "0.17");
-  EXPECT_EQ(rows[0]["u_k_fs"], "");
-  EXPECT_EQ(rows[0]["u_slope"], "0.001");
-  EXPECT_EQ(rows[0]["sigma_um"], "");
-  EXPECT_EQ(rows[0]["f0"], "");
-  EXPECT_EQ(rows[0]["samples"], "42");
-  EXPECT_EQ(rows[0]["loss"], "0.125");
-  EXPECT_EQ(rows[0]["converged"], "false");
-  EXPECT_EQ(rows[3]["n"], "1.7");
-  EXPECT_EQ(rows[3]["converged"], "true");
-}
-
-TEST(MaterialTable, QuotesAsRfc4180) {
-  Material m = garnet_red_paint();
-  m.name = "a\"b,c";
-  const std::string table = to_csv({m});
-  EXPECT_NE(table.find("\n\"a\"\"b,c\",R,0.65,1.7,,0,"), std::string::npos) << table;
-}
-
-TEST(MaterialTable, HandWrittenMaterialHasEmptyCells) {
-  std::istringstream table(to_csv({garnet_red_paint()}));
-  std::string header;
-  std::string row;
-  std::getline(table, header);
-  std::getline(table, row);
-  EXPECT_EQ(cells(header).size(), cells(row).size());
-  EXPECT_TRUE(row.ends_with(",5e-04,,,,")) << row;
 }
 
 }  // namespace

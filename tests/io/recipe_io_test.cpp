@@ -84,7 +84,7 @@ bounds = {slope_bias = 0.02, coverage_95 = [0.9, 0.99]}
   EXPECT_EQ(r.seed, 7U);
   EXPECT_EQ(r.settings.terms, (Terms{FresnelTier::exact, ShadowingTier::none, EffectiveRoughnessTier::none,
                                      DistributionTier::rough_limit}));
-  EXPECT_EQ(r.settings.fs_form, FsForm::reciprocal);
+  EXPECT_EQ(r.settings.forms.fs, FsForm::reciprocal);
   EXPECT_EQ(r.settings.n, (std::vector<double>{1.7, 2.0}));
   EXPECT_EQ(r.settings.kappa, (std::vector<double>{0.5}));
   ASSERT_EQ(r.settings.parameters.size(), 7U);
@@ -112,6 +112,56 @@ TEST(RecipeIo, AutoAndTheNamedTermsAreTheDefaults) {
   EXPECT_FALSE(r.settings.components);
   EXPECT_EQ(r.settings.terms, Terms{});
   EXPECT_EQ(r.scans, (std::vector<Path>{"/a/b/s.csv"}));
+}
+
+TEST(RecipeIo, HesTermsByTheirName) {
+  const Recipe r = parse_recipe("terms = \"he-torrance\"", "r.toml");
+  EXPECT_EQ(r.settings.terms, (Terms{FresnelTier::exact, ShadowingTier::smith, EffectiveRoughnessTier::he,
+                                     DistributionTier::he_torrance}));
+}
+
+TEST(RecipeIo, AnisotropicSurfaceWithGrooves) {
+  const Recipe r = parse_recipe(R"(
+components = ["dd", "rough"]
+anisotropic = true
+terms.distribution = "student-t"
+forms = {rough = "qualitative", anisotropy = "printed"}
+[parameters]
+slope_y = {min = 0.1, max = 0.4}
+tail = 2.0
+facet_slope_deg = {max = 40}
+[parameters.R]
+rho = 0.5
+)",
+                                "r.toml");
+  EXPECT_TRUE(r.settings.anisotropic);
+  EXPECT_EQ(r.settings.components, (EffectSet{Effect::dd, Effect::rough}));
+  EXPECT_EQ(r.settings.forms.rough, RoughForm::qualitative);
+  EXPECT_EQ(r.settings.forms.anisotropy, AnisotropyForm::printed);
+  EXPECT_EQ(r.settings.forms.fs, FsForm::printed);
+  EXPECT_EQ(r.settings.parameters.at("slope_y").max, 0.4);
+  EXPECT_EQ(r.settings.parameters.at("tail").value, 2.0);
+  EXPECT_EQ(r.settings.parameters.at("R.rho").value, 0.5);
+}
+
+TEST(RecipeIo, APeerAndItsParameters) {
+  const Recipe r = parse_recipe(R"(
+model = "schlick-double"
+components = "auto"
+terms = {fresnel = "exact"}
+[parameters]
+p_1 = 1.0
+C_2 = {max = 0.5}
+[parameters.G]
+C_2 = 0.25
+)",
+                                "r.toml");
+  EXPECT_EQ(r.settings.model, "schlick-double");
+  EXPECT_FALSE(r.settings.components);
+  EXPECT_EQ(r.settings.terms.fresnel, FresnelTier::exact);
+  EXPECT_EQ(r.settings.parameters.at("p_1").value, 1.0);
+  EXPECT_EQ(r.settings.parameters.at("C_2").max, 0.5);
+  EXPECT_EQ(r.settings.parameters.at("G.C_2").value, 0.25);
 }
 
 TEST(RecipeIo, FreeOptics) {
@@ -162,26 +212,46 @@ TEST_P(BadRecipes, AreRefusedByKey) { EXPECT_EQ(complaint(GetParam().toml), "2 r
 
 const std::vector<BadRecipe> bad_recipes{
     {"UnknownKey", "scans = \"a.csv\"",
-     ": /scans: is not a known key, expected name, scan, components, terms, forms, loss, weight, max_theta_deg, "
-     "solid_angle_sr, channels, seed, optics, parameters or verify"},
+     ": /scans: is not a known key, expected name, scan, model, components, terms, forms, anisotropic, loss, weight, "
+     "max_theta_deg, solid_angle_sr, channels, seed, optics, parameters or verify"},
     {"ScanOfWrongType", "scan = 3", ": /scan: is an integer, expected a path or an array of paths"},
     {"NoScan", "scan = []", ": /scan: is empty, expected at least one path"},
     {"EmptyScan", "scan = [\"a.csv\", \"\"]", ": /scan/1: is empty, expected a path"},
     {"ComponentsOfWrongType", "components = \"dd\"",
-     ": /components: is a string, expected \"auto\" or an array of coh, dd, udf, uds or fs"},
+     ": /components: is a string, expected \"auto\" or an array of coh, dd, udf, uds, fs or rough"},
     {"NoComponents", "components = []",
-     ": /components: is empty, expected \"auto\" or an array of coh, dd, udf, uds or fs"},
-    {"LaterEffect", "components = [\"dd\", \"rough\"]",
-     ": /components/1: \"rough\" is not available, expected coh, dd, udf, uds or fs"},
+     ": /components: is empty, expected \"auto\" or an array of coh, dd, udf, uds, fs or rough"},
+    {"UnknownEffect", "components = [\"dd\", \"matt\"]",
+     ": /components/1: \"matt\" is not known, expected coh, dd, udf, uds, fs or rough"},
     {"EffectTwice", "components = [\"dd\", \"dd\"]",
      ": /components/1: \"dd\" is named twice, expected each effect once"},
-    {"LaterTerms", "terms = \"he-torrance\"",
-     ": /terms: \"he-torrance\" is not available, expected \"li-torrance\" or a table of tiers"},
     {"UnknownTerms", "terms = \"torrance\"",
-     ": /terms: \"torrance\" is not known, expected \"li-torrance\" or a table of tiers"},
-    {"TermsOfWrongType", "terms = 1", ": /terms: is an integer, expected \"li-torrance\" or a table of tiers"},
-    {"LaterTier", "terms.shadowing = \"smith\"",
-     ": /terms/shadowing: \"smith\" is not available, expected li-torrance or none"},
+     ": /terms: \"torrance\" is not known, expected \"li-torrance\", \"he-torrance\" or a table of tiers"},
+    {"TermsOfWrongType", "terms = 1",
+     ": /terms: is an integer, expected \"li-torrance\", \"he-torrance\" or a table of tiers"},
+    {"UnknownTier", "terms.shadowing = \"Smith\"",
+     ": /terms/shadowing: \"Smith\" is not known, expected li-torrance, smith, schlick or none"},
+    {"UnknownRoughForm", "forms.rough = \"exact\"",
+     ": /forms/rough: \"exact\" is not known, expected functional, integral or qualitative"},
+    {"AnisotropicOfWrongType", "anisotropic = 1", ": /anisotropic: is an integer, expected true or false"},
+    {"UnknownModel", "model = \"phong\"", ": /model: \"phong\" is no model, expected one that `goniofit models` names"},
+    {"ComponentsOfAPeer", "model = \"ward\"\ncomponents = [\"dd\"]",
+     ": /components: is given though the model is ward, which has no effects"},
+    {"FormsOfAPeer", "model = \"ward\"\nforms.fs = \"printed\"",
+     ": /forms: is given though the model is ward, which has no forms"},
+    {"AnisotropicPeer", "model = \"ward\"\nanisotropic = true",
+     ": /anisotropic: is given though the model is ward, expected a model that is anisotropic"},
+    {"NamedTermsOfAPeer", "model = \"ward\"\nterms = \"li-torrance\"",
+     ": /terms: is a string, expected a table of the tier fresnel, which alone this model reads"},
+    {"TierOfAPeer", "model = \"ward\"\nterms.shadowing = \"none\"",
+     ": /terms/shadowing: is not a known key, expected fresnel"},
+    {"ParameterOfAnotherModel", "model = \"ward\"\nparameters.slope = 0.1",
+     ": /parameters/slope: is not a parameter, expected alpha, k_d, k_s, n or f0, or a channel's table"},
+    {"PeerParameterOutOfRange", "model = \"ward\"\nparameters.alpha = 3",
+     ": /parameters/alpha: is 3, expected a number in [0.001, 2]"},
+    {"TailOfOne", "parameters.tail = 1", ": /parameters/tail: is 1, expected a number above 1"},
+    {"FacetSlopeTooSteep", "parameters.facet_slope_deg = 81",
+     ": /parameters/facet_slope_deg: is 81, expected degrees above 0 and up to 80"},
     {"UnknownTerm", "terms.shadow = \"none\"",
      ": /terms/shadow: is not a known key, expected fresnel, shadowing, effective_roughness or distribution"},
     {"UnknownFsForm", "forms.fs = \"both\"", ": /forms/fs: \"both\" is not known, expected printed or reciprocal"},
@@ -215,8 +285,9 @@ const std::vector<BadRecipe> bad_recipes{
      ": /seed: is -1, expected a whole number of at least 0"},
     {"F0AboveOne", "optics.f0 = 1.1", ": /optics/f0: is 1.1, expected a number in [0, 1]"},
     {"UnknownParameter", "parameters.k_ds = 0.5",
-     ": /parameters/k_ds: is not a parameter, expected slope, sigma_um, tau_um, k_dd, k_udf, k_uds, k_fs, n or f0, or "
-     "a channel's table"},
+     ": /parameters/k_ds: is not a parameter, expected slope, sigma_um, tau_um, slope_y, tail, facet_slope_deg, k_dd, "
+     "k_udf, "
+     "k_uds, k_fs, rho, n or f0, or a channel's table"},
     {"ParameterOfWrongType", "parameters.k_dd = \"0.5\"",
      ": /parameters/k_dd: is a string, expected a number that fixes it, or {min = ..., max = ...}"},
     {"ParameterNegative", "parameters.k_dd = -0.5", ": /parameters/k_dd: is -0.5, expected a number of at least 0"},
@@ -234,11 +305,10 @@ const std::vector<BadRecipe> bad_recipes{
     {"SharedUnderChannel", "parameters.R.slope = 0.1",
      ": /parameters/R/slope: is shared by all channels, expected it directly under [parameters]"},
     {"UnknownUnderChannel", "parameters.R.k = 0.1",
-     ": /parameters/R/k: is not a parameter of a channel, expected k_dd, k_udf, k_uds, k_fs, n or f0"},
+     ": /parameters/R/k: is not a parameter of a channel, expected k_dd, k_udf, k_uds, k_fs, rho, n or f0"},
     {"ParameterOfNoChannel", "channels = [\"R\", \"G\"]\nparameters.B.k_dd = 0.1",
-     ": /parameters/B: is neither a parameter nor a channel, expected slope, sigma_um, tau_um, k_dd, k_udf, k_uds, "
-     "k_fs, n "
-     "or f0, or a channel (R or G)"},
+     ": /parameters/B: is neither a parameter nor a channel, expected slope, sigma_um, tau_um, slope_y, tail, "
+     "facet_slope_deg, k_dd, k_udf, k_uds, k_fs, rho, n or f0, or a channel (R or G)"},
     {"NoTruth", "[verify]\ntrials = 3", ": /verify/truth: is missing, expected the path of a material"},
     {"NoiseNegative", "verify = {truth = \"t.json\", noise = {relative = -0.02}}",
      ": /verify/noise/relative: is -0.02, expected a number of at least 0"},

@@ -189,6 +189,38 @@ TEST(FitReport, SaysWhatWasUsedAndWhatWasNot) {
   EXPECT_NE(report.find("Notes\n  • auto"), std::string::npos);
 }
 
+TEST(FitReport, NamesTheModelAndTheFormsThatAreRead) {
+  Sample sample(1);
+  EXPECT_EQ(line_with(fit_report(sample.result, sample.scan, {}), "  model "), "  model         surface");
+  EXPECT_EQ(line_with(fit_report(sample.result, sample.scan, {}), "  forms "), "  forms         fs printed");
+  Material& m = sample.result.material;
+  m.components = {Effect::dd, Effect::rough};
+  m.forms.rough = RoughForm::qualitative;
+  m.surface.slope_y = 0.2;
+  const std::string report = fit_report(sample.result, sample.scan, {});
+  EXPECT_EQ(line_with(report, "  model "), "  model         surface, anisotropic");
+  EXPECT_EQ(line_with(report, "  forms "), "  forms         rough qualitative, anisotropy consistent");
+}
+
+TEST(FitReport, APeerHasNoEffectsAndOneTerm) {
+  Sample sample(1);
+  Material& m = sample.result.material;
+  m.model = "ggx";
+  m.components = {};
+  m.surface = {};
+  sample.result.parameters.insert(sample.result.parameters.begin(), parameter("", "alpha", 0.25, 0.01));
+  const std::string report = fit_report(sample.result, sample.scan, {});
+  EXPECT_EQ(line_with(report, "  model "), "  model         ggx");
+  EXPECT_EQ(line_with(report, "  terms "), "  terms         Fresnel schlick");
+  EXPECT_EQ(report.find("  components"), std::string::npos);
+  EXPECT_EQ(report.find("  forms"), std::string::npos);
+  EXPECT_NE(line_with(report, "  alpha ").find("± 0.010"), std::string::npos) << report;
+  const auto json = nlohmann::json::parse(fit_report_json(sample.result, sample.scan));
+  EXPECT_EQ(json.at("model").at("name"), "ggx");
+  EXPECT_FALSE(json.at("model").contains("components"));
+  EXPECT_EQ(json.at("model").at("terms"), (nlohmann::json{{"fresnel", "schlick"}}));
+}
+
 TEST(FitReport, ANonConvergedFitCannotBeOverlooked) {
   Sample sample(1);
   sample.result.converged = false;
@@ -263,6 +295,9 @@ TEST(FitReportJson, HoldsTheSameNumbersUnrounded) {
   EXPECT_EQ(json.at("channels").at(30).at("rms"), 0.0042);
   EXPECT_EQ(json.at("warnings").size(), 1U);
   EXPECT_TRUE(json.at("converged"));
+  EXPECT_EQ(json.at("model").at("name"), "surface");
+  EXPECT_EQ(json.at("model").at("forms"),
+            (nlohmann::json{{"fs", "printed"}, {"rough", "functional"}, {"anisotropy", "consistent"}}));
 }
 
 TEST(FitReportJson, SurvivesNamesThatAreNotUtf8) {

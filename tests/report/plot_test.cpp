@@ -241,9 +241,30 @@ TEST_F(PlotFile, SaysSoWhenReadingsWereTakenFromNearThePlane) {
   EXPECT_NE(slurp(folder_ / "a.svg").find("readings within 5° of the plane of incidence"), std::string::npos);
 }
 
+TEST(AtAzimuth, KeepsWholeReadings) {
+  Scan scan = simulate(test::anisotropic_ggx(), Sampling::incidence_plane, {0.02, 1e-4}, 1, true);
+  const Scan part = at_azimuth(scan, -315.0);
+  ASSERT_EQ(part.size(), scan.size() / 3);
+  for (std::size_t row = 0; row < part.size(); ++row) {
+    ASSERT_EQ(part.phi_i_deg[row], 45.0);
+    ASSERT_EQ(part.channels[1].values[row], scan.channels[1].values[part.size() + row]);
+    ASSERT_EQ(part.channels[1].u[row], scan.channels[1].u[part.size() + row]);
+  }
+}
+
+TEST_F(PlotFile, AnAnisotropicMaterialIsDrawnAtOneAzimuth) {
+  const Material ggx = test::anisotropic_ggx();
+  draw("a.svg", simulate(ggx, Sampling::incidence_plane, no_noise, 1), ggx);
+  const std::string picture = slurp(folder_ / "a.svg");
+  EXPECT_NE(picture.find("φᵢ = 0° alone"), std::string::npos);
+  EXPECT_NE(picture.find("ggx-anisotropic   alpha_x = 0.1   alpha_y = 0.3"), std::string::npos);
+  draw("b.svg", scan_of(Sampling::incidence_plane), material_);
+  EXPECT_EQ(slurp(folder_ / "b.svg").find("° alone"), std::string::npos);
+}
+
 TEST_F(PlotFile, DrawsACoherentSpikeAndReadingsOfNothingButNoise) {
   material_.components.insert(Effect::coh);
-  material_.surface = {.slope = 0.01, .sigma_um = 0.05, .tau_um = 5.0};
+  material_.surface = test::surface(0.05, 5.0);
   draw("spike.svg", simulate(material_, Sampling::incidence_plane, no_noise, 1), material_);
   Scan noise = plane_scan({30.0}, {-60, -40, -20, 0, 20, 40}, [](double, double) { return -0.01; });
   Material one = test::garnet_red_paint_13();

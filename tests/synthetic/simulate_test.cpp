@@ -12,13 +12,15 @@
 #include "brdf/evaluator.h"
 #include "io/scan_reader.h"
 #include "support/error.h"
+#include "support/error_message.h"
+#include "support/materials.h"
 #include "synthetic/random.h"
 
 namespace goniofit {
 namespace {
 
 MaterialChannel channel(const std::string& name, double wavelength_um, double n, double kappa) {
-  return {.name = name, .wavelength_um = wavelength_um, .n = n, .kappa = kappa, .f0 = {}, .k = {}};
+  return {.name = name, .wavelength_um = wavelength_um, .n = n, .kappa = kappa, .f0 = {}, .k = {}, .peer_k = {}};
 }
 
 Material paint() {
@@ -39,7 +41,7 @@ Material mirror_metal() {
   Material m;
   m.name = "metal";
   m.components = {Effect::coh, Effect::dd};
-  m.surface = {.slope = 0.23 / 9.9, .sigma_um = 0.23, .tau_um = 9.9};
+  m.surface = test::surface(0.23, 9.9);
   m.channels = {channel("R", 0.65, 1.47, 7.79), channel("G", 0.55, 0.958, 6.69)};
   for (MaterialChannel& c : m.channels) c.coefficient(Coefficient::k_dd) = 1.0;
   return m;
@@ -257,6 +259,74 @@ TEST(Simulate, AWrittenScanReadsBack) {
       EXPECT_EQ(back.channels[c].u, scan.channels[c].u);
     }
   }
+}
+
+std::set<double> azimuths(const Scan& scan) { return {scan.phi_i_deg.begin(), scan.phi_i_deg.end()}; }
+
+// One azimuth of incidence cannot tell two slopes from one.
+TEST(Simulate, AnAnisotropicMaterialIsTurned) {
+  const std::set<double> turned{0.0, 45.0, 90.0};
+  Material brushed = paint();
+  brushed.surface.slope_y = 0.3;
+  for (const Material& material : {brushed, test::anisotropic_ggx()}) {
+    const Scan scan = simulate(material, Sampling::incidence_plane, {}, 1);
+    EXPECT_EQ(azimuths(scan), turned);
+    EXPECT_EQ(scan.geometry, ScanGeometry::hemispherical) << "a scan of the plane has no column for them";
+    EXPECT_EQ(scan.size(), 3 * simulate(paint(), Sampling::incidence_plane, {}, 1).size());
+    EXPECT_EQ(metadata(scan, "made_by"),
+              "goniofit simulate --sampling incidence-plane --phi-i 0,45,90 --noise 0 --seed 1");
+    const Evaluator evaluator(material);
+    bool differs = false;
+    for (std::size_t row = 0; row < scan.size(); ++row) {
+      EXPECT_NE(scan.plane_side(row), 0) << "turned together";
+      const AnglePair a = scan.angles(row);
+      const double f = evaluator.value(make_pair(a), 0);
+      EXPECT_NEAR(scan.channels[0].values[row], f, 1e-12 * f);
+      const double unturned =
+          evaluator.value(make_pair({a.theta_i_deg, 0.0, a.theta_r_deg, a.phi_r_deg - a.phi_i_deg}), 0);
+      differs = differs || std::fabs(f - unturned) > 0.1 * unturned;
+    }
+    EXPECT_TRUE(differs);
+  }
+  Material equal_widths = test::anisotropic_ggx();
+  equal_widths.parameters["alpha_y"] = equal_widths.parameters["alpha_x"];
+  EXPECT_EQ(azimuths(simulate(equal_widths, Sampling::hemisphere, {}, 1)), std::set<double>{0.0});
+}
+
+TEST(Simulate, AzimuthsOfIncidenceAreThoseAskedFor) {
+  const Scan scan = simulate(paint(), Sampling::hemisphere, {0.02, 0.0}, 7, false, {0.0, 30.0});
+  EXPECT_EQ(azimuths(scan), (std::set<double>{0.0, 30.0}));
+  EXPECT_EQ(metadata(scan, "made_by"), "goniofit simulate --sampling hemisphere --phi-i 0,30 --noise 0.02 --seed 7");
+  // The readings of azimuth 0 are those of a scan of azimuth 0 alone.
+  const Scan plain = simulate(paint(), Sampling::hemisphere, {0.02, 0.0}, 7);
+  for (std::size_t row = 0; row < plain.size(); row += 89) {
+    EXPECT_EQ(scan.channels[1].values[row], plain.channels[1].values[row]);
+  }
+  const auto complaint = [](const std::vector<double>& phi) {
+    return test::error_message([&] { (void)simulate(paint(), Sampling::hemisphere, {}, 1, false, phi); });
+  };
+  EXPECT_EQ(complaint({0.0, std::nan("")}), "2 azimuth of incidence nan: expected a finite number");
+  EXPECT_EQ(complaint({-90.0, 270.0}), "2 azimuth of incidence 270: is given twice, expected each once");
+}
+
+// What has its peak in the mirror direction has that direction; only what the solid angle gives a height states it.
+TEST(Simulate, MirrorDirectionsWhereAPeakIsThere) {
+  Material wave = mirror_metal();
+  wave.components = {Effect::dd};
+  wave.terms.distribution = DistributionTier::he_torrance;
+  const Scan of_wave = simulate(wave, Sampling::hemisphere, {}, 1);
+  EXPECT_EQ(of_wave.size(), 8U * 442U);
+  EXPECT_FALSE(of_wave.solid_angle_sr);
+  wave.components = {Effect::udf};
+  EXPECT_EQ(simulate(wave, Sampling::hemisphere, {}, 1).size(), 8U * 441U);
+  Material schlick;
+  schlick.model = "schlick-single-isotropic";
+  schlick.parameters = {{"r", 0.01}};
+  schlick.channels = {channel("R", 0.65, 1.5, 0.0)};
+  schlick.channels[0].peer_k = {{"C", 0.5}};
+  const Scan of_schlick = simulate(schlick, Sampling::hemisphere, {}, 1);
+  EXPECT_EQ(of_schlick.size(), 8U * 442U);
+  EXPECT_EQ(of_schlick.solid_angle_sr, 0.0005);
 }
 
 TEST(Simulate, RefusesWhatIsNoNoiseAndNoMaterial) {

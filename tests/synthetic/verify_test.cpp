@@ -7,6 +7,7 @@
 
 #include "io/material_io.h"
 #include "support/error.h"
+#include "support/materials.h"
 #include "support/paths.h"
 
 namespace goniofit {
@@ -18,7 +19,7 @@ Material metal() {
   m.name = "metal";
   m.components = {Effect::dd, Effect::udf};
   m.surface.slope = 0.17;
-  MaterialChannel g{.name = "G", .wavelength_um = 0.55, .n = 0.958, .kappa = 6.69, .f0 = {}, .k = {}};
+  MaterialChannel g{.name = "G", .wavelength_um = 0.55, .n = 0.958, .kappa = 6.69, .f0 = {}, .k = {}, .peer_k = {}};
   g.coefficient(Coefficient::k_dd) = 0.45;
   g.coefficient(Coefficient::k_udf) = 0.33;
   m.channels = {g};
@@ -114,6 +115,68 @@ TEST_F(VerifyRecipe, WithoutNoiseRecoversExactly) {
   EXPECT_EQ(report.failures, 0U);
   EXPECT_NEAR(find(report, "slope").mean, 0.17, 1e-7);
   EXPECT_NEAR(find(report, "G.k_udf").mean, 0.33, 1e-7);
+}
+
+TEST_F(VerifyRecipe, RecoversAnAnisotropicSurface) {
+  Material brushed = metal();
+  brushed.surface.slope_y = 0.05;
+  truth(brushed);
+  recipe_.settings.anisotropic = true;
+  const VerifyReport report = verify_recipe(recipe_, 4, 1);
+  EXPECT_EQ(report.failures, 0U);
+  EXPECT_DOUBLE_EQ(find(report, "slope_y").truth, 0.05);
+  EXPECT_NEAR(find(report, "slope_y").mean, 0.05, 0.001);
+  EXPECT_NEAR(find(report, "slope").mean, 0.17, 0.004);
+}
+
+TEST_F(VerifyRecipe, RecoversGroovesUnderALobe) {
+  Material plaster = metal();
+  plaster.components = {Effect::dd, Effect::rough};
+  plaster.surface.facet_slope_deg = 30.0;
+  plaster.channels[0].coefficient(Coefficient::rho) = 0.7;
+  truth(plaster);
+  recipe_.settings.components = plaster.components;
+  const VerifyReport report = verify_recipe(recipe_, 4, 1);
+  EXPECT_EQ(report.failures, 0U);
+  EXPECT_NEAR(find(report, "facet_slope_deg").mean, 30.0, 1.5);
+  EXPECT_NEAR(find(report, "G.rho").mean, 0.7, 0.03);
+}
+
+TEST_F(VerifyRecipe, RecoversAPeer) {
+  Material ggx = test::anisotropic_ggx();
+  ggx.channels.resize(1);
+  truth(ggx);
+  recipe_.settings.model = ggx.model;
+  recipe_.settings.components.reset();
+  const VerifyReport report = verify_recipe(recipe_, 4, 1);
+  EXPECT_EQ(report.failures, 0U);
+  for (const auto& [name, value] : {std::pair{"alpha_x", 0.1}, {"alpha_y", 0.3}, {"R.k_d", 0.25}, {"R.k_s", 0.75}}) {
+    EXPECT_DOUBLE_EQ(find(report, name).truth, value);
+    EXPECT_NEAR(find(report, name).mean, value, 0.02 * value) << name;
+    EXPECT_EQ(find(report, name).stated, 4U) << name;
+  }
+}
+
+// Another model than the truth's has nothing to recover, but can still be fitted.
+TEST_F(VerifyRecipe, AnotherModelOnlyHasToConverge) {
+  recipe_.settings.model = "ggx";
+  recipe_.settings.components.reset();
+  const VerifyReport report = verify_recipe(recipe_, 2, 1);
+  EXPECT_EQ(report.failures, 0U);
+  EXPECT_TRUE(report.parameters.empty());
+}
+
+TEST_F(VerifyRecipe, AChannelIsComparedWithItsOwnTruth) {
+  Material two = metal();
+  two.channels.push_back(two.channels[0]);
+  two.channels[1].name = "B";
+  two.channels[1].coefficient(Coefficient::k_dd) = 0.2;
+  truth(two);
+  recipe_.channels = {"B"};
+  const VerifyReport report = verify_recipe(recipe_, 4, 1);
+  EXPECT_EQ(report.failures, 0U);
+  EXPECT_DOUBLE_EQ(find(report, "B.k_dd").truth, 0.2);
+  EXPECT_NEAR(find(report, "B.k_dd").mean, 0.2, 0.01);
 }
 
 TEST_F(VerifyRecipe, NeedsATruthAndATrial) {

@@ -8,7 +8,8 @@
 #include <array>
 #include <cmath>
 
-#include "brdf/optics.h"
+#include "basis/optics.h"
+#include "brdf/surface_shape.h"
 #include "fit/fit.h"
 #include "support/materials.h"
 #include "synthetic/simulate.h"
@@ -66,11 +67,12 @@ struct ReadingCost {
   bool operator()(const T* slope, const T* k, T* residual) const {
     using std::log;
     const T log_slope = log(slope[0]);
-    const SurfaceTerms<T> t = surface_terms<ShadowingTier::li_torrance, EffectiveRoughnessTier::li_torrance>(
-        log_slope, T(1.0 / slope[0]), pair);
-    const T dd = fresnel(FresnelTier::schlick, optics, pair) * dd_shape(t, pair);
+    const ShapeSettings published;
+    const SurfaceParameters<T> surface{.log_slope = log_slope};
+    const SurfaceTerms<T> t = surface_terms(published, surface, pair);
+    const T dd = fresnel(FresnelTier::schlick, optics, pair) * dd_shape(published, surface, t, 1.0, pair);
     const double transmitted = transmission(FresnelTier::schlick, optics, pair);
-    const T fs = transmitted * fs_shape<FsForm::printed>(t, pair);
+    const T fs = transmitted * fs_shape(published, surface, t, pair);
     for (std::size_t c = 0; c < 3; ++c) {
       residual[c] = weight * (k[3 * c] * dd + k[3 * c + 1] * (transmitted / pi) + k[3 * c + 2] * fs - measured[c]);
     }

@@ -1,7 +1,8 @@
 #pragma once
 // The loop behind shape_columns. Private to the files that instantiate it, which are compiled for vectorisation.
 
-#if defined(__GNUC__) && !defined(__clang__)
+// Instrumented code is not vectorised anyway, and three clones of it take the compiler minutes.
+#if defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
 // Tells the compiler that the C library has vector versions of these (libmvec, glibc 2.35).
 extern "C" {
 __attribute__((simd("notinbranch"))) double asin(double) noexcept;

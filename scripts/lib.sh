@@ -13,7 +13,7 @@ export DEBIAN_FRONTEND=noninteractive
 build_packages=(g++ cmake ninja-build ccache libceres-dev libeigen3-dev libopenexr-dev libcli11-dev nlohmann-json3-dev
   libtomlplusplus-dev libyaml-cpp-dev libfmt-dev libfast-float-dev libboost-dev
   gnuplot-nox)
-test_packages=(libgtest-dev librapidcheck-dev libmpfr-dev)
+test_packages=(libgtest-dev librapidcheck-dev libmpfr-dev python3-lmfit)
 
 say() { printf '%s\n' "== $*" >&2; }
 

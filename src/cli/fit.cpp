@@ -97,7 +97,8 @@ int run(const Options& options) {
   }();
   write_outputs(options, scan, result);
   print_result(options, scan, result);
-  return result.converged ? 0 : static_cast<int>(ErrorKind::failed_result);
+  const bool described = !result.diagnostics || result.diagnostics->verdict != FitVerdict::fails;
+  return result.converged && described ? 0 : static_cast<int>(ErrorKind::failed_result);
 }
 
 }  // namespace

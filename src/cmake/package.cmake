@@ -15,7 +15,7 @@ set(GONIOFIT_PUBLIC_HEADERS
   peers/peers.h peers/schlick_sampling.h peers/rational_fraction.h peers/approximation_quality.h
   brdf/material.h brdf/evaluator.h brdf/sampler.h brdf/sampling_lobes.h brdf/sampling_rows.h
   scan/scan.h
-  fit/settings.h fit/fit.h fit/comparison.h
+  fit/settings.h fit/fit.h fit/residual_tests.h fit/diagnostics.h fit/selection.h fit/comparison.h
   io/scan_reader.h io/material_io.h io/recipe_io.h io/optical_constants.h io/exr_table.h
   synthetic/simulate.h synthetic/verify.h
   report/fit_report.h report/comparison_report.h report/plot.h)

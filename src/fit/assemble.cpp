@@ -2,10 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
-#include <limits>
 #include <map>
-#include <sstream>
 
 #include "brdf/rough_shape.h"
 #include "fit/model.h"
@@ -16,12 +13,6 @@
 namespace goniofit {
 
 namespace {
-
-std::string percent(double part) {
-  std::ostringstream text;
-  text << std::setprecision(2) << 100.0 * part << " %";
-  return text.str();
-}
 
 using ByName = std::map<std::string, std::vector<std::string>>;  // parameter, its channels
 
@@ -82,7 +73,6 @@ FitResult Assembly::result() {
   m.solid_angle_sr = problem_.solid_angle_sr;
   out_.notes = problem_.notes;
   out_.warnings = problem_.warnings;
-  out_.components_were_auto = problem_.components_were_auto;
   add_totals();
   add_shape();
   for (std::size_t c = 0; c < problem_.channels.size(); ++c) add_channel(c);
@@ -128,7 +118,11 @@ void Assembly::add_shape() {
     if (problem_.model == surface_model) {
       *m.surface.find(p.name) = p.value;
     } else {
-      m.parameters[p.name] = p.value;
+      // A peer cannot be evaluated without: one that the scan leaves open stays where the search left it.
+      const auto i = *problem_.shape_index(p.name);
+      const ShapeParameter& s = problem_.basis->shape_parameters()[i];
+      const double z = problem_.shape.at(best_.point.z.data())[static_cast<Eigen::Index>(i)];
+      m.parameters[p.name] = p.value.value_or(std::clamp(s.origin + std::exp(z), s.lower, s.upper));
     }
   }
 }
@@ -303,12 +297,6 @@ void Assembly::add_warnings() {
     out_.warnings.push_back("on the upper bound: " + listed(on_upper, channels) +
                             "; check the scan's absolute scale and the refractive index, or widen the bound (--bound "
                             "NAME=MIN:MAX)");
-  }
-  const double unexplained = std::sqrt(l_.loss / std::max(problem_.total, std::numeric_limits<double>::min()));
-  if (unexplained > 0.3) {
-    out_.warnings.push_back(
-        "the model leaves " + percent(unexplained) +
-        " of the weighted signal unexplained (root mean square); look at the plot before using the parameters");
   }
   if (out_.negative_values > 0) {
     out_.notes.push_back(std::to_string(out_.negative_values) +

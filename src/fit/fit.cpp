@@ -7,32 +7,20 @@
 
 #include "brdf/evaluator.h"
 #include "fit/assemble.h"
-#include "fit/polish.h"
 #include "fit/problem.h"
-#include "fit/search.h"
+#include "fit/solve.h"
 
 namespace goniofit {
-
-EffectSet automatic_components(bool metal) noexcept {
-  return metal ? EffectSet{Effect::dd, Effect::udf} : EffectSet{Effect::dd, Effect::uds, Effect::fs};
-}
 
 namespace {
 
 FitResult fit_as_asked(const Scan& scan, const FitSettings& settings) {
   const Problem problem(scan, settings);
-  const SearchOutcome found = search(problem);
-  Polished best;
-  std::size_t iterations = 0;
-  for (const FitPoint& minimum : found.minima) {
-    Polished polished = polish(problem, minimum);
-    iterations += polished.iterations;
-    if (&minimum == &found.minima.front() || polished.point.loss < best.point.loss) best = std::move(polished);
-  }
-  FitResult result = assemble(problem, scan, best);
-  result.search_evaluations = found.evaluations;
-  result.polish_starts = found.minima.size();
-  result.polish_iterations = iterations;
+  const Solved solved = solve(problem);
+  FitResult result = assemble(problem, scan, solved.best);
+  result.search_evaluations = solved.evaluations;
+  result.polish_starts = solved.starts;
+  result.polish_iterations = solved.iterations;
   return result;
 }
 
@@ -70,12 +58,41 @@ void settle_distribution(const Scan& scan, FitSettings settings, FitResult& resu
   result = std::move(rough);
 }
 
+// A peer of which the scan leaves a parameter open has none.
+bool has_values(const Material& m) {
+  return std::all_of(m.parameters.begin(), m.parameters.end(), [](const auto& p) { return p.second.has_value(); });
+}
+
+// Those that the scan determined.
+std::size_t free_parameters(const FitResult& r) {
+  const auto is_free = [](const FittedParameter& p) {
+    return p.value && !p.fixed && !p.derived && !p.at_lower && !p.at_upper;
+  };
+  return static_cast<std::size_t>(std::count_if(r.parameters.begin(), r.parameters.end(), is_free));
+}
+
 }  // namespace
 
 FitResult fit(const Scan& scan, const FitSettings& settings) {
   const auto start = std::chrono::steady_clock::now();
-  FitResult result = fit_as_asked(scan, settings);
-  settle_distribution(scan, settings, result);
+  FitSettings own = settings;
+  std::optional<Selection> selection;
+  if (settings.model == surface_model && !settings.components) {
+    selection = select_components(scan, settings);
+    own.components = selection->chosen();
+  }
+  FitResult result = fit_as_asked(scan, own);
+  settle_distribution(scan, own, result);
+  if (selection) {
+    result.notes.insert(result.notes.begin(), selection->reason);
+    result.components_were_auto = true;
+    result.selection = std::move(selection);
+  }
+  if (has_values(result.material)) {
+    result.diagnostics = diagnose(
+        scan, result.material,
+        {.weight = result.weight, .max_theta_deg = settings.max_theta_deg, .free_parameters = free_parameters(result)});
+  }
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;
 }

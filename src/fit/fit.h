@@ -8,18 +8,21 @@
 
 #include "../brdf/material.h"
 #include "../scan/scan.h"
+#include "diagnostics.h"
+#include "selection.h"
 #include "settings.h"
 
 namespace goniofit {
 
 /// One row of the fit report.
 struct FittedParameter {
-  std::string name;                 ///< "slope", "sigma_um", "tau_um", "k_dd", "n"
-  std::string channel;              ///< empty for shared ones
-  std::string unit;                 ///< "", "um"
-  std::optional<double> value;      ///< null: the scan does not determine it
-  std::optional<double> u;          ///< standard uncertainty; null where fixed, on a bound or undetermined
-  double lower = 0.0, upper = 0.0;  ///< bounds; infinity for none
+  std::string name;                     ///< "slope", "sigma_um", "tau_um", "k_dd", "n"
+  std::string channel;                  ///< empty for shared ones
+  std::string unit;                     ///< "", "um"
+  std::optional<double> value;          ///< null: the scan does not determine it
+  std::optional<double> u;              ///< standard uncertainty; null where fixed, on a bound or undetermined
+  std::optional<double> u_classical{};  ///< the same if all residuals had one variance, s² (JᵀJ)⁻¹: see uncertainty.h
+  double lower = 0.0, upper = 0.0;      ///< bounds; infinity for none
   bool fixed = false;
   bool derived = false;  ///< computed from others (tau from slope and sigma)
   bool at_lower = false, at_upper = false;
@@ -47,8 +50,11 @@ struct FitResult {
   double seconds = 0.0;
   bool converged = false;
   bool components_were_auto = false;
-  std::vector<std::string> notes;     ///< what was decided on the user's behalf ("auto: ...")
-  std::vector<std::string> warnings;  ///< what is wrong or weak, each with what to do next
+  std::optional<Selection> selection;         ///< how "auto" chose; also the first of the notes
+  std::optional<FitDiagnostics> diagnostics;  ///< whether the material describes the scan; none where it has no values
+                                              ///< (a parameter of a peer is open)
+  std::vector<std::string> notes;             ///< what was decided on the user's behalf ("auto: ...")
+  std::vector<std::string> warnings;          ///< what is wrong or weak, each with what to do next
 };
 
 /// Fits `scan` (all of its channels). Deterministic. Throws Error (bad_input) where settings and scan contradict each
@@ -58,8 +64,5 @@ struct FitResult {
 /// Fills result.reflectance at the scan's incidence angles (to 0.1 degree; at most `most` of them, evenly chosen), and
 /// warns where it passes 1. Apart from fit(), because it costs more than a fit does.
 void add_reflectance(FitResult& result, const Scan& scan, std::size_t most = 12);
-
-/// The effects of "auto" until selection by the data exists: dd + udf where kappa > 0, else dd + uds + fs.
-[[nodiscard]] EffectSet automatic_components(bool metal) noexcept;
 
 }  // namespace goniofit

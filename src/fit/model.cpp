@@ -20,6 +20,10 @@ std::vector<double*> column_pointers(Eigen::MatrixXd& m) {
 
 Model::Model(const Problem& problem)
     : problem_(problem), parameters_(static_cast<Eigen::Index>(problem.basis->shape_parameters().size())) {
+  for (std::size_t i = 0; i < problem.samples(); ++i) {
+    if (problem.basis->reads_length(problem.pairs[i])) late_rows_.push_back(i);
+  }
+  late_ = problem.pairs.subset(late_rows_);
   const bool fixed = problem.free_optics == FreeOptics::none;
   for (std::size_t c = 0; c < problem.channels.size(); ++c) {
     // Where no factor reads the wavelength all channels share one set.
@@ -85,15 +89,33 @@ void Model::multiply_out(Group& group, bool derivatives) const {
   }
 }
 
+void Model::shape_factors(const Eigen::VectorXd& shape, const PairBatch& pairs, double wavelength_um, bool derivatives,
+                          Eigen::MatrixXd& values, Eigen::MatrixXd& by_shape) const {
+  const std::span<const double> z(shape.data(), static_cast<std::size_t>(parameters_));
+  if (derivatives) {
+    problem_.basis->shape_factors(pairs, z, wavelength_um, column_pointers(values), column_pointers(by_shape));
+  } else {
+    problem_.basis->shape_factors(pairs, z, wavelength_um, column_pointers(values));
+  }
+}
+
 void Model::set_shape(const double* z, bool derivatives) {
-  const Eigen::VectorXd all = problem_.shape.at(z);
-  const std::span<const double> shape(all.data(), static_cast<std::size_t>(parameters_));
+  const Eigen::VectorXd shape = problem_.shape.at(z);
+  Eigen::MatrixXd values(static_cast<Eigen::Index>(late_.size()), factors_.front().values.cols());
+  Eigen::MatrixXd by_shape = Eigen::MatrixXd::Zero(values.rows(), factors_.front().derivatives.cols());
   for (Factors& f : factors_) {
-    if (derivatives) {
-      problem_.basis->shape_factors(problem_.pairs, shape, f.wavelength_um, column_pointers(f.values),
-                                    column_pointers(f.derivatives));
-    } else {
-      problem_.basis->shape_factors(problem_.pairs, shape, f.wavelength_um, column_pointers(f.values));
+    if (&f == &factors_.front()) {
+      shape_factors(shape, problem_.pairs, f.wavelength_um, derivatives, f.values, f.derivatives);
+      continue;
+    }
+    f.values = factors_.front().values;
+    if (derivatives) f.derivatives = factors_.front().derivatives;
+    shape_factors(shape, late_, f.wavelength_um, derivatives, values, by_shape);
+    for (std::size_t i = 0; i < late_rows_.size(); ++i) {
+      const auto from = static_cast<Eigen::Index>(i);
+      const auto to = static_cast<Eigen::Index>(late_rows_[i]);
+      f.values.row(to) = values.row(from);
+      if (derivatives) f.derivatives.row(to) = by_shape.row(from);
     }
   }
   have_derivatives_ = derivatives;
@@ -117,6 +139,11 @@ double Model::amplitude(Eigen::Index column, const SmallVector& k) const noexcep
   return c.power == 2 ? value * value : value;
 }
 
+void Model::emphasise(std::size_t channel, Eigen::Ref<Eigen::VectorXd> out) const {
+  const Eigen::VectorXd& emphasis = problem_.channels[channel].emphasis;
+  if (emphasis.size() > 0) multiply(emphasis.data(), out.data(), out.data(), problem_.samples());
+}
+
 void Model::residuals(std::size_t channel, const SmallVector& k, Eigen::VectorXd& out) const {
   const Eigen::MatrixXd& products = groups_[group_[channel]].products;
   out = -problem_.channels[channel].target;
@@ -124,6 +151,7 @@ void Model::residuals(std::size_t channel, const SmallVector& k, Eigen::VectorXd
     const double a = amplitude(j, k);
     if (a != 0.0) add_scaled(a, products.col(j).data(), out.data(), problem_.samples());
   }
+  emphasise(channel, out);
 }
 
 void Model::by_shape(std::size_t channel, const SmallVector& k, int i, Eigen::Ref<Eigen::VectorXd> out) const {
@@ -139,6 +167,7 @@ void Model::by_shape(std::size_t channel, const SmallVector& k, int i, Eigen::Re
       }
     }
   }
+  emphasise(channel, out);
 }
 
 void Model::by_coefficient(std::size_t channel, const SmallVector& k, std::size_t coefficient,
@@ -151,6 +180,7 @@ void Model::by_coefficient(std::size_t channel, const SmallVector& k, std::size_
     const double chain = c.power == 2 ? 2.0 * k[static_cast<Eigen::Index>(coefficient)] : 1.0;
     add_scaled(chain, products.col(static_cast<Eigen::Index>(j)).data(), out.data(), problem_.samples());
   }
+  emphasise(channel, out);
 }
 
 void Model::by_optics(std::size_t channel, const SmallVector& k, Eigen::Ref<Eigen::VectorXd> out) const {
@@ -160,6 +190,7 @@ void Model::by_optics(std::size_t channel, const SmallVector& k, Eigen::Ref<Eige
   for (Eigen::Index j = 0; j < shape.cols(); ++j) {
     out.noalias() += amplitude(j, k) * group.optics_derivatives.col(j).cwiseProduct(shape.col(j));
   }
+  emphasise(channel, out);
 }
 
 Linearisation linearise(const Problem& problem, const FitPoint& point) {

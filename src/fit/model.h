@@ -49,12 +49,17 @@ class Model {
   };
   /// What a column is multiplied by: its coefficient, or the square of it.
   [[nodiscard]] double amplitude(Eigen::Index column, const SmallVector& k) const noexcept;
+  void emphasise(std::size_t channel, Eigen::Ref<Eigen::VectorXd> out) const;
+  void shape_factors(const Eigen::VectorXd& shape, const PairBatch& pairs, double wavelength_um, bool derivatives,
+                     Eigen::MatrixXd& values, Eigen::MatrixXd& by_shape) const;
   std::size_t factors_for(double wavelength_um);
   void fill_optics(std::size_t channel, Group& group) const;
   void multiply_out(Group& group, bool derivatives) const;
 
   const Problem& problem_;
   Eigen::Index parameters_;
+  std::vector<std::size_t> late_rows_;  ///< whose factors read the wavelength; of another wavelength only they differ
+  PairBatch late_;
   std::vector<Factors> factors_;
   std::vector<Group> groups_;
   std::vector<std::size_t> group_;  ///< of each channel

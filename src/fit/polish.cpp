@@ -174,11 +174,11 @@ class ChannelCost final : public ceres::CostFunction {
   Eigen::Index n_, width_;
 };
 
-ceres::Solver::Options solver_options(const Problem& problem) {
+ceres::Solver::Options solver_options(const Problem& problem, double tolerance) {
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_SCHUR;
   options.max_num_iterations = 100;
-  options.function_tolerance = 1e-14;
+  options.function_tolerance = tolerance;
   options.parameter_tolerance = 1e-11;
   options.gradient_tolerance = 1e-15 * std::max(problem.total, std::numeric_limits<double>::min());
   options.logging_type = ceres::SILENT;
@@ -193,12 +193,12 @@ void add_bounds(ceres::Problem& ceres_problem, double* block, int index, double 
 }
 
 // One Ceres run over what `state` leaves free. Returns whether it converged.
-bool solve(const Problem& problem, Model& model, State& state, std::size_t& iterations) {
+bool run_ceres(const Problem& problem, Model& model, State& state, double tolerance, std::size_t& iterations) {
   ceres::Problem::Options problem_options;
   ShapeCallback callback(model, state);
   problem_options.evaluation_callback = &callback;
   ceres::Problem ceres_problem(problem_options);
-  ceres::Solver::Options options = solver_options(problem);
+  ceres::Solver::Options options = solver_options(problem, tolerance);
   auto ordering = std::make_shared<ceres::ParameterBlockOrdering>();
   const bool shape_is_free = !state.moving.empty();
   for (std::size_t c = 0; c < problem.channels.size(); ++c) {
@@ -329,7 +329,7 @@ double optimality_of(const Problem& problem, const FitPoint& point, const Linear
 
 }  // namespace
 
-Polished polish(const Problem& problem, const FitPoint& start) {
+Polished polish(const Problem& problem, const FitPoint& start, double tolerance) {
   Polished result{start, 0, false, 0.0};
   Model model(problem);
   Linearisation l = linearise(problem, result.point);
@@ -338,7 +338,7 @@ Polished polish(const Problem& problem, const FitPoint& start) {
   // wrongly or a new one was met.
   for (int round = 0; round < 8; ++round) {
     State state = layout_for(problem, result.point, l);
-    const bool converged = solve(problem, model, state, result.iterations);
+    const bool converged = run_ceres(problem, model, state, tolerance, result.iterations);
     state.gather();
     Linearisation at_end = linearise(problem, state.point);
     const double before = result.point.loss;
@@ -349,7 +349,7 @@ Polished polish(const Problem& problem, const FitPoint& start) {
     }
     result.optimality = optimality_of(problem, result.point, l);
     result.converged = converged && result.optimality < 1e-5;
-    if (result.optimality < 1e-8 || result.point.loss >= before * (1.0 - 1e-13)) break;
+    if (result.optimality < 1e-8 || result.point.loss >= before * (1.0 - std::max(tolerance, 1e-13))) break;
   }
   return result;
 }

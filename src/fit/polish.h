@@ -22,7 +22,10 @@ struct Polished {
       0.0;  ///< square root of the part of the loss that one parameter's step could still gain; 0 at a minimum
 };
 
-[[nodiscard]] Polished polish(const Problem& problem, const FitPoint& start);
+/// Ceres stops where a step gains less than `tolerance` of the loss: a result takes the default, what is to predict
+/// readings to much less than their noise takes prediction_accuracy.
+inline constexpr double result_accuracy = 1e-14, prediction_accuracy = 1e-6;
+[[nodiscard]] Polished polish(const Problem& problem, const FitPoint& start, double tolerance = result_accuracy);
 
 /// polish() from a material's parameters, for recovery studies: its loss is what the right minimum has to reach.
 struct PolishOutcome {

@@ -5,7 +5,6 @@
 #include <limits>
 #include <sstream>
 
-#include "fit/fit.h"
 #include "fit/parameter_settings.h"
 #include "fit/surface_basis.h"
 #include "peers/peers.h"
@@ -71,11 +70,46 @@ Problem::Problem(const Scan& scan, const FitSettings& settings)
   fill_targets(scan);
 }
 
+Problem::Problem(std::unique_ptr<const Basis> own_basis, Readings readings, const FitSettings& settings)
+    : anisotropic(false),
+      solid_angle_sr(default_solid_angle_sr),
+      free_optics(FreeOptics::none),
+      weighting(Weight::none),
+      basis(std::move(own_basis)),
+      pairs(std::move(readings.pairs)),
+      weight(readings.weight.cwiseSqrt()),
+      channels(readings.values.size()),
+      optics_groups(1) {
+  const auto n = static_cast<Eigen::Index>(pairs.size());
+  terms.fresnel = FresnelTier::none;
+  if (weight.size() == 0) weight = Eigen::VectorXd::Ones(n);
+  if (n == 0 || channels.empty()) throw usage_error("readings: none given, expected one channel of one at least");
+  if (weight.size() != n || !(weight.minCoeff() > 0.0))
+    throw usage_error("readings: expected a weight above zero for each of the " + std::to_string(n));
+  for (std::size_t row = 0; row < pairs.size(); ++row) rows.push_back(row);
+  choose_shape(settings);
+  choose_coefficients(settings);
+  for (std::size_t c = 0; c < channels.size(); ++c) {
+    if (readings.values[c].size() != n)
+      throw usage_error("readings: " + std::to_string(readings.values[c].size()) + " values in channel " +
+                        std::to_string(c + 1) + ", expected one for each of the " + std::to_string(n) + " pairs");
+    add_target(channels[c], std::move(readings.values[c]));
+  }
+}
+
 std::optional<std::size_t> Problem::shape_index(const std::string& name) const {
   const std::vector<ShapeParameter>& all = basis->shape_parameters();
   const auto at = std::find_if(all.begin(), all.end(), [&](const ShapeParameter& p) { return p.name == name; });
   if (at == all.end()) return std::nullopt;
   return static_cast<std::size_t>(at - all.begin());
+}
+
+void Problem::emphasise(std::vector<Eigen::VectorXd> emphasis) {
+  total = 0.0;
+  for (std::size_t c = 0; c < channels.size(); ++c) {
+    channels[c].emphasis = std::move(emphasis[c]);
+    total += channels[c].target.cwiseProduct(channels[c].emphasis).squaredNorm();
+  }
 }
 
 void Problem::choose_basis() {
@@ -163,20 +197,8 @@ void Problem::choose_optics(const Scan& scan, const FitSettings& settings) {
 }
 
 void Problem::choose_components(const FitSettings& settings) {
-  if (settings.components) {
-    components = *settings.components;
-    if (components.empty()) throw usage_error("components: none given, expected some of " + names_of<Effect>());
-  } else {
-    const bool metal =
-        std::any_of(channels.begin(), channels.end(), [](const ProblemChannel& c) { return c.optics.kappa > 0.0; });
-    components = automatic_components(metal);
-    components_were_auto = true;
-    notes.emplace_back(
-        metal
-            ? "components auto: dd, udf, because kappa > 0 (a metal lets no light below its surface); the data do not "
-              "choose yet"
-            : "components auto: dd, uds, fs, because kappa = 0 (a dielectric); the data do not choose yet");
-  }
+  components = settings.components.value_or(EffectSet{});
+  if (components.empty()) throw usage_error("components: none given, expected some of " + names_of<Effect>());
   if (!components.has(Effect::coh)) return;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     if (in_mirror_cone(pairs[i], solid_angle_sr)) return;
@@ -303,15 +325,16 @@ void Problem::fill_targets(const Scan& scan) {
     weight[i] = weighting == Weight::cosine ? std::sqrt(pairs.cos_i[static_cast<std::size_t>(i)]) : 1.0;
   }
   for (std::size_t c = 0; c < channels.size(); ++c) {
-    Eigen::VectorXd& target = channels[c].target;
-    target.resize(n);
-    for (Eigen::Index i = 0; i < n; ++i) {
-      const double value = scan.channels[c].values[rows[static_cast<std::size_t>(i)]];
-      if (value < 0.0) ++exclusions.negative_values;
-      target[i] = weight[i] * value;
-    }
-    total += target.squaredNorm();
+    Eigen::VectorXd values(n);
+    for (Eigen::Index i = 0; i < n; ++i) values[i] = scan.channels[c].values[rows[static_cast<std::size_t>(i)]];
+    exclusions.negative_values += static_cast<std::size_t>((values.array() < 0.0).count());
+    add_target(channels[c], std::move(values));
   }
+}
+
+void Problem::add_target(ProblemChannel& channel, Eigen::VectorXd values) {
+  channel.target = weight.cwiseProduct(values);
+  total += channel.target.squaredNorm();
 }
 
 }  // namespace goniofit

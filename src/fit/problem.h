@@ -39,18 +39,32 @@ struct ShapeMap {
 struct ProblemChannel {
   std::string name;
   std::optional<double> wavelength_um;
-  ChannelOptics optics{};                         ///< where fixed; the start where free
-  std::optional<double> n, kappa;                 ///< as given; empty where f0 was
-  Eigen::VectorXd target;                         ///< weight * value, one a reading used
+  ChannelOptics optics{};          ///< where fixed; the start where free
+  std::optional<double> n, kappa;  ///< as given; empty where f0 was
+  Eigen::VectorXd target;          ///< weight * value, one a reading used
+  /// A factor of each residual beside the weight that all channels share; empty for 1. A polish reads it, a search does
+  /// not.
+  Eigen::VectorXd emphasis;
   SmallVector lower, upper;                       ///< bounds of the coefficients; equal where fixed
   double optics_lower = 0.0, optics_upper = 0.0;  ///< of the free optical parameter
   std::size_t optics_group = 0;                   ///< channels of equal optics share their columns
 };
 
+/// Readings of anything, for a basis of the caller's own.
+struct Readings {
+  PairBatch pairs;                      ///< the abscissas, in whatever members of a pair the basis reads them from
+  std::vector<Eigen::VectorXd> values;  ///< one a channel, each as long as `pairs`
+  Eigen::VectorXd weight{};             ///< > 0, of each residual's square in the loss; empty for 1
+};
+
 class Problem {
  public:
-  /// Throws Error (bad_input) where settings and scan contradict each other.
+  /// Throws Error (bad_input) where settings and scan contradict each other. The surface model's components have to be
+  /// chosen: "auto" is fit()'s.
   Problem(const Scan& scan, const FitSettings& settings);
+  /// For other data than BRDFs: decays, spectra, reference problems. No optics; of the settings, `parameters` counts.
+  /// Throws Error (bad_input) where values or weights do not match the pairs.
+  Problem(std::unique_ptr<const Basis> own_basis, Readings readings, const FitSettings& settings = {});
 
   /// Index of a shape parameter by name; nullopt where the model does not read it.
   [[nodiscard]] std::optional<std::size_t> shape_index(const std::string& name) const;
@@ -58,6 +72,8 @@ class Problem {
   [[nodiscard]] double wavelength(std::size_t channel) const noexcept {
     return channels[channel].wavelength_um.value_or(1.0);
   }
+  /// Gives every channel its emphasis, and the problem the total that goes with it.
+  void emphasise(std::vector<Eigen::VectorXd> emphasis);
   /// Optics with the free parameter at `value`; T is double or a dual number.
   template <class T>
   [[nodiscard]] BasicOptics<T> optics_at(std::size_t channel, const T& value) const {
@@ -85,7 +101,6 @@ class Problem {
   double total = 0.0;  ///< loss of a model that is zero
 
   Exclusions exclusions;
-  bool components_were_auto = false;
   std::vector<std::string> notes, warnings;
 
  private:
@@ -101,6 +116,7 @@ class Problem {
   void fix(std::size_t parameter, double value);
   void choose_coefficients(const FitSettings& settings);
   void fill_targets(const Scan& scan);
+  void add_target(ProblemChannel& channel, Eigen::VectorXd values);
 };
 
 }  // namespace goniofit

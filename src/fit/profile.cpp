@@ -164,7 +164,9 @@ Profile::Choice Profile::choose_from(std::size_t channel, const Group& group, st
     }
     const CoefficientSolver::Solution solution = solver_.solve(gram, rhs, c.lower, c.upper);
     // The difference of near equals: round-off may leave it a little below zero on noise-free data.
-    const double loss = std::max(0.0, target2_[channel] + solution.value);
+    const double sum = target2_[channel] + solution.value;
+    if (!std::isfinite(sum)) continue;  // a shape factor left the range of doubles
+    const double loss = std::max(0.0, sum);
     if (loss < best.loss) best = {solution, loss, candidate.value};
   }
   return best;

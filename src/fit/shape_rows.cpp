@@ -38,7 +38,7 @@ class Rows {
     return {std::log(value), Eigen::VectorXd::Zero(problem_.shape.free)};
   }
   [[nodiscard]] std::optional<LogLinear> log_sigma() const;
-  [[nodiscard]] double standard_uncertainty(const Eigen::VectorXd& gradient) const;
+  [[nodiscard]] double standard_uncertainty(const Eigen::VectorXd& gradient, const Eigen::MatrixXd& covariance) const;
   [[nodiscard]] ParameterState state_of(const Eigen::VectorXd& gradient) const;
   [[nodiscard]] FittedParameter fitted(const std::string& name, const LogLinear& x, double origin, double lower,
                                        double upper) const;
@@ -52,7 +52,7 @@ class Rows {
 };
 
 // Of g · z, by the covariance of z; NaN where a z that it reads has none.
-double Rows::standard_uncertainty(const Eigen::VectorXd& gradient) const {
+double Rows::standard_uncertainty(const Eigen::VectorXd& gradient, const Eigen::MatrixXd& covariance) const {
   double variance = 0.0;
   for (int a = 0; a < problem_.shape.free; ++a) {
     if (gradient[a] == 0.0) continue;
@@ -60,7 +60,7 @@ double Rows::standard_uncertainty(const Eigen::VectorXd& gradient) const {
     if (!std::isfinite(pa.u)) return pa.u;
     for (int b = 0; b < problem_.shape.free; ++b) {
       const ParameterUncertainty& pb = u_.shape[static_cast<std::size_t>(b)];
-      if (pb.index >= 0) variance += gradient[a] * gradient[b] * u_.covariance(pa.index, pb.index);
+      if (pb.index >= 0) variance += gradient[a] * gradient[b] * covariance(pa.index, pb.index);
     }
   }
   return std::sqrt(variance);
@@ -85,12 +85,10 @@ FittedParameter Rows::fitted(const std::string& name, const LogLinear& x, double
     upper = map.upper_value[static_cast<std::size_t>(a)];
   }
   const double scale = std::exp(x.log_value);
-  const double u = scale * standard_uncertainty(x.gradient);
-  FittedParameter p = parameter_row(name, "", origin + scale, lower, upper, {state_of(x.gradient), u, -1});
-  if (p.fixed) p.u.reset();
-  // On a bound the value is the bound, not the exponential of its logarithm.
-  if (p.at_lower) p.value = lower;
-  if (p.at_upper) p.value = upper;
+  const double u = scale * standard_uncertainty(x.gradient, u_.covariance);
+  const double classical = scale * standard_uncertainty(x.gradient, u_.covariance_classical);
+  FittedParameter p = parameter_row(name, "", origin + scale, lower, upper, {state_of(x.gradient), u, -1, classical});
+  if (p.fixed) p.u = p.u_classical = std::nullopt;
   return p;
 }
 
@@ -174,11 +172,15 @@ FittedParameter parameter_row(const std::string& name, const std::string& channe
   p.channel = channel;
   if (u.state != ParameterState::undetermined) p.value = value;
   if (std::isfinite(u.u) && p.value) p.u = u.u;
+  if (p.u && std::isfinite(u.u_classical)) p.u_classical = u.u_classical;
   p.lower = lower;
   p.upper = upper;
   p.fixed = u.state == ParameterState::fixed;
   p.at_lower = u.state == ParameterState::at_lower;
   p.at_upper = u.state == ParameterState::at_upper;
+  // On a bound the value is the bound, not what rounding or the exponential of its logarithm makes of it.
+  if (p.at_lower) p.value = lower;
+  if (p.at_upper) p.value = upper;
   return p;
 }
 

@@ -1,10 +1,11 @@
 #include "fit/uncertainty.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace goniofit {
 
@@ -102,14 +103,6 @@ void for_each_parameter(Uncertainties& u, const F& f) {
   for (ParameterUncertainty& p : u.optics) f(p);
 }
 
-void scatter_add(const Eigen::MatrixXd& part, const std::vector<Eigen::Index>& index, Eigen::MatrixXd& whole) {
-  for (std::size_t i = 0; i < index.size(); ++i) {
-    for (std::size_t j = 0; j < index.size(); ++j) {
-      whole(index[i], index[j]) += part(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
-    }
-  }
-}
-
 // Parameters that lie in a null direction of the equilibrated normal matrix to double precision.
 std::vector<bool> in_null_space(const Eigen::MatrixXd& equilibrated) {
   std::vector<bool> null(static_cast<std::size_t>(equilibrated.rows()), false);
@@ -123,19 +116,95 @@ std::vector<bool> in_null_space(const Eigen::MatrixXd& equilibrated) {
   return null;
 }
 
-// (JᵀJ)⁻¹, equilibrated on the way; false where it is singular.
-bool invert(const Eigen::MatrixXd& normal, Eigen::MatrixXd& inverse, Eigen::MatrixXd& equilibrated) {
-  const Eigen::VectorXd scale = normal.diagonal().cwiseSqrt().cwiseInverse();
-  equilibrated = scale.asDiagonal() * normal * scale.asDiagonal();
-  const Eigen::LDLT<Eigen::MatrixXd> ldlt(equilibrated);
-  if (ldlt.info() != Eigen::Success || ldlt.vectorD().minCoeff() <= 1e-12) return false;
-  inverse =
-      scale.asDiagonal() * ldlt.solve(Eigen::MatrixXd::Identity(normal.rows(), normal.cols())) * scale.asDiagonal();
-  return true;
+// R of m = QR.
+Eigen::MatrixXd triangle_of(const Eigen::MatrixXd& m) {
+  const Eigen::Index rows = std::min(m.rows(), m.cols());
+  if (rows == 0) return Eigen::MatrixXd::Zero(0, m.cols());
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(m);
+  return qr.matrixQR().topRows(rows).triangularView<Eigen::Upper>();
 }
+
+// The triangle R of J = QR over the whole problem, by way of those of its blocks, its columns scaled to norm 1. Not by
+// Cholesky's of JᵀJ, whose condition is the square of J's: with parameters that all but stand in for each other (three
+// exponentials, quotients of cubics) half the digits would go.
+class Triangle {
+ public:
+  Triangle(const std::vector<Block>& blocks, Eigen::Index size) : scale_(Eigen::VectorXd::Zero(size)) {
+    std::vector<Eigen::MatrixXd> triangles;
+    Eigen::Index rows = 0;
+    for (const Block& b : blocks) {
+      triangles.push_back(triangle_of(b.jacobian));
+      rows += triangles.back().rows();
+    }
+    Eigen::MatrixXd stacked = Eigen::MatrixXd::Zero(rows, size);
+    rows = 0;
+    for (std::size_t c = 0; c < blocks.size(); ++c) {
+      for (std::size_t j = 0; j < blocks[c].index.size(); ++j) {
+        stacked.block(rows, blocks[c].index[j], triangles[c].rows(), 1) =
+            triangles[c].col(static_cast<Eigen::Index>(j));
+      }
+      rows += triangles[c].rows();
+    }
+    scale_ = stacked.colwise().norm().cwiseInverse();
+    r_ = triangle_of(stacked * scale_.asDiagonal());
+  }
+
+  /// JᵀJ, its columns scaled.
+  [[nodiscard]] Eigen::MatrixXd equilibrated() const { return r_.transpose() * r_; }
+  /// Fewer readings than parameters, or dependent columns: the bound is on what is left of a column of norm 1 when
+  /// those before it have had their share.
+  [[nodiscard]] bool singular() const { return r_.rows() < r_.cols() || !(r_.diagonal().cwiseAbs().minCoeff() > 1e-6); }
+  /// B with B Bᵀ = (JᵀJ)⁻¹.
+  [[nodiscard]] Eigen::MatrixXd inverse_root() const {
+    const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(r_.rows(), r_.cols());
+    return scale_.asDiagonal() * r_.triangularView<Eigen::Upper>().solve(identity);
+  }
+
+ private:
+  Eigen::VectorXd scale_;
+  Eigen::MatrixXd r_;
+};
 
 // A reading that alone determines a parameter has no residual to speak of, and the parameter no uncertainty to state.
 constexpr double full_leverage = 1.0 - 1e-9;
+
+Eigen::MatrixXd rows_of(const Eigen::MatrixXd& m, const std::vector<Eigen::Index>& index) {
+  Eigen::MatrixXd rows(static_cast<Eigen::Index>(index.size()), m.cols());
+  for (std::size_t i = 0; i < index.size(); ++i) rows.row(static_cast<Eigen::Index>(i)) = m.row(index[i]);
+  return rows;
+}
+
+// HC3 of all blocks, and which parameters have none because a single reading decides them.
+struct Sandwich {
+  Eigen::MatrixXd covariance;
+  std::vector<bool> single;
+};
+
+Sandwich sandwich(const std::vector<Block>& blocks, const Linearisation& l, const Eigen::MatrixXd& root) {
+  const Eigen::Index size = root.rows();
+  Sandwich out;
+  out.single.assign(static_cast<std::size_t>(size), false);
+  Eigen::MatrixXd meat = Eigen::MatrixXd::Zero(size, size);
+  for (std::size_t c = 0; c < blocks.size(); ++c) {
+    const Block& b = blocks[c];
+    const Eigen::MatrixXd own = rows_of(root, b.index);
+    const Eigen::VectorXd leverage = (b.jacobian * triangle_of(own.transpose()).transpose()).rowwise().squaredNorm();
+    Eigen::VectorXd e(leverage.size());
+    for (Eigen::Index i = 0; i < leverage.size(); ++i) {
+      const bool decides = leverage[i] >= full_leverage;
+      e[i] = decides ? 0.0 : l.residuals[c][i] / (1.0 - leverage[i]);
+      for (Eigen::Index j = 0; decides && j < own.rows(); ++j) {
+        if (b.jacobian(i, j) * b.jacobian(i, j) * own.row(j).squaredNorm() > 0.25)
+          out.single[static_cast<std::size_t>(b.index[static_cast<std::size_t>(j)])] = true;
+      }
+    }
+    // In the coordinates of B, and by triangles: nothing is lost to the condition of J squared.
+    const Eigen::MatrixXd weighted = triangle_of(e.asDiagonal() * b.jacobian) * own;
+    meat.noalias() += weighted.transpose() * weighted;
+  }
+  out.covariance = root * meat * root.transpose();
+  return out;
+}
 
 }  // namespace
 
@@ -143,50 +212,32 @@ Uncertainties uncertainties(const Problem& problem, const FitPoint& point, const
   Uncertainties out;
   const Layout layout(problem, point, l, out);
   if (layout.size == 0) return out;
-  const auto residuals = static_cast<Eigen::Index>(problem.samples() * problem.channels.size());
   std::vector<Block> blocks;
-  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(layout.size, layout.size);
-  for (std::size_t c = 0; c < problem.channels.size(); ++c) {
-    const Block& b = blocks.emplace_back(block_of(c, l, out));
-    scatter_add(b.jacobian.transpose() * b.jacobian, b.index, normal);
-  }
-  Eigen::MatrixXd bread;
-  Eigen::MatrixXd equilibrated;
-  if (!invert(normal, bread, equilibrated)) {
-    const std::vector<bool> null = in_null_space(equilibrated);
+  for (std::size_t c = 0; c < problem.channels.size(); ++c) blocks.push_back(block_of(c, l, out));
+  const Triangle triangle(blocks, layout.size);
+  if (triangle.singular()) {
+    const std::vector<bool> null = in_null_space(triangle.equilibrated());
     for_each_parameter(out, [&null](ParameterUncertainty& p) {
       if (p.index >= 0 && null[static_cast<std::size_t>(p.index)]) p.state = ParameterState::undetermined;
       p.index = -1;
     });
     return out;
   }
+  const Eigen::MatrixXd root = triangle.inverse_root();
+  out.covariance_unscaled = root * root.transpose();
+  for_each_parameter(out, [&out](ParameterUncertainty& p) {
+    if (p.index >= 0) p.u_unscaled = std::sqrt(out.covariance_unscaled(p.index, p.index));
+  });
+  const auto residuals = static_cast<Eigen::Index>(problem.samples() * problem.channels.size());
   if (residuals <= layout.size) return out;
-  Eigen::MatrixXd meat = Eigen::MatrixXd::Zero(layout.size, layout.size);
-  std::vector<bool> single(static_cast<std::size_t>(layout.size), false);
-  for (std::size_t c = 0; c < blocks.size(); ++c) {
-    const Block& b = blocks[c];
-    const auto width = static_cast<Eigen::Index>(b.index.size());
-    Eigen::MatrixXd own(width, width);
-    for (Eigen::Index i = 0; i < width; ++i) {
-      for (Eigen::Index j = 0; j < width; ++j)
-        own(i, j) = bread(b.index[static_cast<std::size_t>(i)], b.index[static_cast<std::size_t>(j)]);
-    }
-    const Eigen::VectorXd leverage = (b.jacobian * own).cwiseProduct(b.jacobian).rowwise().sum();
-    Eigen::VectorXd e2(leverage.size());
-    for (Eigen::Index i = 0; i < leverage.size(); ++i) {
-      const double left = 1.0 - leverage[i];
-      e2[i] = leverage[i] < full_leverage ? (l.residuals[c][i] / left) * (l.residuals[c][i] / left) : 0.0;
-      if (leverage[i] < full_leverage) continue;
-      for (Eigen::Index j = 0; j < width; ++j) {
-        if (b.jacobian(i, j) * b.jacobian(i, j) * own(j, j) > 0.25)
-          single[static_cast<std::size_t>(b.index[static_cast<std::size_t>(j)])] = true;
-      }
-    }
-    scatter_add(b.jacobian.transpose() * e2.asDiagonal() * b.jacobian, b.index, meat);
-  }
-  out.covariance = bread * meat * bread;
+  out.residual_variance = l.loss / static_cast<double>(residuals - layout.size);
+  out.covariance_classical = out.residual_variance * out.covariance_unscaled;
+  Sandwich hc3 = sandwich(blocks, l, root);
+  out.covariance = std::move(hc3.covariance);
   for_each_parameter(out, [&](ParameterUncertainty& p) {
-    if (p.index >= 0 && !single[static_cast<std::size_t>(p.index)]) p.u = std::sqrt(out.covariance(p.index, p.index));
+    if (p.index < 0) return;
+    p.u_classical = std::sqrt(out.covariance_classical(p.index, p.index));
+    if (!hc3.single[static_cast<std::size_t>(p.index)]) p.u = std::sqrt(out.covariance(p.index, p.index));
   });
   return out;
 }

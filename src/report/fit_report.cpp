@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "report/fit_rows.h"
+#include "report/misfit_report.h"
 #include "report/number_text.h"
 #include "report/text_table.h"
 
@@ -257,6 +258,47 @@ std::string reflectance_block(const FitResult& result, bool color) {
   return out;
 }
 
+// How the effects were chosen.
+std::string selection_block(const Selection& selection, bool color) {
+  TextTable table({{"", Align::left},
+                   {"components", Align::left},
+                   {"free", Align::right},
+                   {"loss", Align::right},
+                   {"χ²", Align::right},
+                   {"ΔAICc", Align::right},
+                   {"ΔBIC", Align::right},
+                   {"weight", Align::right},
+                   {"left-out score", Align::right},
+                   {"to the best", Align::left}});
+  double aicc = selection.rows.front().aicc;
+  double bic = selection.rows.front().bic;
+  for (const SelectionRow& row : selection.rows) {
+    aicc = std::min(aicc, row.aicc);
+    bic = std::min(bic, row.bic);
+  }
+  for (const SelectionRow& row : selection.rows) {
+    std::vector<Cell> cells{row.chosen ? "→" : "",
+                            effects_text(row.components, " + "),
+                            fmt::format("{}", row.free_parameters),
+                            fmt::format("{:.5g}", row.loss),
+                            fmt::format("{:.5g}", row.chi2),
+                            fmt::format("{:.4g}", row.aicc - aicc),
+                            fmt::format("{:.4g}", row.bic - bic),
+                            fmt::format("{:.3f}", row.bic_weight)};
+    if (row.cross_validated) cells.emplace_back(fmt::format("{:.4f}", *row.cross_validated));
+    if (row.difference) cells.emplace_back(fmt::format("+{:.4f} ± {:.4f}", *row.difference, *row.difference_error));
+    table.add_row(std::move(cells));
+  }
+  std::string out = heading("Choice of the components", color) + table.str(indent, color);
+  std::string text = fmt::format("noise estimated: {:.2g} % of the value and {:.2g} sr⁻¹; weight by the BIC",
+                                 100.0 * selection.noise.relative, selection.noise.additive);
+  if (!selection.not_fitted.empty()) {
+    text += fmt::format("; {} not tried, being parts of what describes the scan far worse",
+                        count_text(selection.not_fitted.size(), "more set was", "more sets were"));
+  }
+  return out + tinted("  (" + wrapped(text, indent + 1) + ")\n", Tint::faint, color);
+}
+
 std::string list_block(const std::string& title, const std::vector<std::string>& items, Tint tint, bool color) {
   if (items.empty()) return {};
   std::string out = heading(title, color);
@@ -272,7 +314,11 @@ std::string fit_report(const FitResult& result, const Scan& scan, const ReportSt
   std::string out = title_block(result, scan, style.color);
   out += parameter_block(result, style.color);
   out += fit_block(result, scan, style.color);
+  if (result.diagnostics) {
+    out += heading("Misfit", style.color) + misfit_block(*result.diagnostics, scan, style.color);
+  }
   if (style.show_reflectance) out += reflectance_block(result, style.color);
+  if (result.selection) out += selection_block(*result.selection, style.color);
   out += list_block("Notes", result.notes, Tint::faint, style.color);
   out += list_block("Warnings", result.warnings, Tint::warning, style.color);
   return out;

@@ -4,6 +4,7 @@
 
 #include "report/fit_report.h"
 #include "report/fit_rows.h"
+#include "report/misfit_report.h"
 
 namespace goniofit {
 namespace {
@@ -21,6 +22,7 @@ Json parameter_json(const FittedParameter& p) {
   out["unit"] = p.unit;
   out["value"] = value_or_null(p.value);
   out["standard_uncertainty"] = value_or_null(p.u);
+  out["classical_uncertainty"] = p.u ? value_or_null(p.u_classical) : Json(nullptr);
   out["min"] = finite_or_null(p.lower);
   out["max"] = finite_or_null(p.upper);
   out["state"] = state_of(p);
@@ -65,6 +67,32 @@ Json channels_json(const FitResult& result) {
   return out;
 }
 
+Json selection_json(const std::optional<Selection>& selection) {
+  if (!selection) return nullptr;
+  Json out;
+  out["reason"] = selection->reason;
+  out["noise"] = {{"relative", selection->noise.relative}, {"additive", selection->noise.additive}};
+  out["groups"] = selection->groups;
+  out["sets"] = Json::array();
+  for (const SelectionRow& row : selection->rows) {
+    out["sets"].push_back({{"components", effect_names(row.components)},
+                           {"free_parameters", row.free_parameters},
+                           {"loss", finite_or_null(row.loss)},
+                           {"chi2", finite_or_null(row.chi2)},
+                           {"aicc", finite_or_null(row.aicc)},
+                           {"bic", finite_or_null(row.bic)},
+                           {"aicc_weight", finite_or_null(row.aicc_weight)},
+                           {"bic_weight", finite_or_null(row.bic_weight)},
+                           {"cross_validated", value_or_null(row.cross_validated)},
+                           {"difference", value_or_null(row.difference)},
+                           {"difference_error", value_or_null(row.difference_error)},
+                           {"chosen", row.chosen}});
+  }
+  out["not_tried"] = Json::array();
+  for (const EffectSet set : selection->not_fitted) out["not_tried"].push_back(effect_names(set));
+  return out;
+}
+
 Json reflectance_json(const FitResult& result) {
   Json out = Json::array();
   for (const HemisphericalReflectance& at : result.reflectance) {
@@ -99,6 +127,9 @@ std::string fit_report_json(const FitResult& result, const Scan& scan) {
                    {"polish_starts", result.polish_starts},
                    {"polish_iterations", result.polish_iterations},
                    {"seconds", result.seconds}};
+  out["diagnostics"] = result.diagnostics ? misfit_json(*result.diagnostics, scan) : Json(nullptr);
+  out["selection"] = selection_json(result.selection);
+  out["diagnostics"] = result.diagnostics ? misfit_json(*result.diagnostics, scan) : Json(nullptr);
   out["reflectance"] = reflectance_json(result);
   out["notes"] = result.notes;
   out["warnings"] = result.warnings;

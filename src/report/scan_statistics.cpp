@@ -1,7 +1,6 @@
 #include "report/scan_statistics.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <map>
@@ -9,71 +8,11 @@
 
 #include "geometry/angles.h"
 #include "geometry/pair.h"
+#include "scan/arrangement.h"
 
 namespace goniofit {
 
 namespace {
-
-using Rows = std::vector<std::size_t>;
-using Key = std::array<std::int64_t, 4>;
-
-// Angles to 0.01°: finer than any instrument points, coarser than what formats round.
-std::int64_t centidegrees(double degrees) { return std::llround(100.0 * degrees); }
-
-double delta_phi(const Scan& scan, std::size_t row) { return wrap_deg(scan.phi_r_deg[row] - scan.phi_i_deg[row]); }
-
-bool is_polar(const Scan& scan, std::size_t row) {
-  return centidegrees(scan.theta_i_deg[row]) == 0 || centidegrees(scan.theta_r_deg[row]) == 0;
-}
-
-// The direction itself. At the normal an azimuth means nothing: only what is left of it counts.
-Key direction_key(const Scan& scan, std::size_t row) {
-  const std::int64_t theta_i = centidegrees(scan.theta_i_deg[row]);
-  const std::int64_t theta_r = centidegrees(scan.theta_r_deg[row]);
-  if (theta_i == 0 && theta_r == 0) return {};
-  if (theta_i == 0) return {0, 0, theta_r, centidegrees(wrap_deg(scan.phi_r_deg[row]))};
-  const std::int64_t phi_i = centidegrees(wrap_deg(scan.phi_i_deg[row]));
-  return {theta_i, phi_i, theta_r, theta_r == 0 ? 0 : centidegrees(delta_phi(scan, row))};
-}
-
-// What a direction and its swapped pair share on an isotropic surface.
-Key unordered_key(const Scan& scan, std::size_t row) {
-  const std::int64_t theta_i = centidegrees(scan.theta_i_deg[row]);
-  const std::int64_t theta_r = centidegrees(scan.theta_r_deg[row]);
-  const std::int64_t delta = is_polar(scan, row) ? 0 : centidegrees(std::fabs(delta_phi(scan, row)));
-  return {std::min(theta_i, theta_r), std::max(theta_i, theta_r), delta, 0};
-}
-
-// Rows in groups of equal keys.
-template <class KeyOf>
-std::vector<Rows> grouped(const Scan& scan, KeyOf&& key_of) {
-  std::vector<std::pair<Key, std::size_t>> keyed(scan.size());
-  for (std::size_t row = 0; row < scan.size(); ++row) keyed[row] = {key_of(scan, row), row};
-  std::sort(keyed.begin(), keyed.end());
-  std::vector<Rows> groups;
-  for (std::size_t i = 0; i < keyed.size(); ++i) {
-    if (i == 0 || keyed[i].first != keyed[i - 1].first) groups.emplace_back();
-    groups.back().push_back(keyed[i].second);
-  }
-  return groups;
-}
-
-struct SwappedRows {
-  Rows steeper, flatter;  // theta_i < theta_r, theta_i > theta_r
-};
-
-std::vector<SwappedRows> swapped_rows(const Scan& scan) {
-  std::vector<SwappedRows> pairs;
-  for (const Rows& group : grouped(scan, unordered_key)) {
-    SwappedRows pair;
-    for (const std::size_t row : group) {
-      const std::int64_t difference = centidegrees(scan.theta_r_deg[row]) - centidegrees(scan.theta_i_deg[row]);
-      if (difference != 0) (difference > 0 ? pair.steeper : pair.flatter).push_back(row);
-    }
-    if (!pair.steeper.empty() && !pair.flatter.empty()) pairs.push_back(std::move(pair));
-  }
-  return pairs;
-}
 
 double quantile(std::vector<double>& values, double q) {
   const auto at = values.begin() + std::llround(q * static_cast<double>(values.size() - 1));
@@ -81,19 +20,8 @@ double quantile(std::vector<double>& values, double q) {
   return *at;
 }
 
-double mean_of(const std::vector<double>& values, const Rows& rows) {
-  double sum = 0.0;
-  for (const std::size_t row : rows) sum += values[row];
-  return sum / static_cast<double>(rows.size());
-}
-
 std::optional<RatioStatistics> reciprocity_of(const ScanChannel& channel, const std::vector<SwappedRows>& pairs) {
-  std::vector<double> ratios;
-  for (const SwappedRows& pair : pairs) {
-    const double steeper = mean_of(channel.values, pair.steeper);
-    const double flatter = mean_of(channel.values, pair.flatter);
-    if (steeper > 0.0 && flatter > 0.0) ratios.push_back(steeper / flatter);
-  }
+  std::vector<double> ratios = swapped_ratios(channel.values, pairs);
   if (ratios.empty()) return std::nullopt;
   return RatioStatistics{quantile(ratios, 0.5), {quantile(ratios, 0.05), quantile(ratios, 0.95)}};
 }
@@ -138,21 +66,18 @@ ChannelStatistics channel_statistics(const ScanChannel& channel, const std::vect
 
 // theta_r as the file has it.
 double written_theta_r(const Scan& scan, std::size_t row) {
-  const bool retro = scan.geometry == ScanGeometry::incidence_plane && std::fabs(delta_phi(scan, row)) < 90.0;
+  const bool retro = scan.geometry == ScanGeometry::incidence_plane && std::fabs(delta_phi_deg(scan, row)) < 90.0;
   return retro ? -scan.theta_r_deg[row] : scan.theta_r_deg[row];
 }
 
 void widen(Range& range, double value) { range = {std::min(range.min, value), std::max(range.max, value)}; }
 
-// The angle between unit vectors that are sqrt(distance2) apart.
-double angle_deg(double distance2) { return degrees(2.0 * std::asin(std::min(1.0, 0.5 * std::sqrt(distance2)))); }
-
 std::vector<IncidenceStatistics> incidence_statistics(const Scan& scan) {
   std::map<std::int64_t, IncidenceStatistics> by_angle;
   for (std::size_t row = 0; row < scan.size(); ++row) {
     const Pair pair = make_pair(scan.angles(row));
-    const double mirror = angle_deg(pair.mirror_distance2);
-    const double retro = angle_deg(4.0 * pair.one_minus_cos_h * (1.0 + pair.cos_h));
+    const double mirror = from_mirror_deg(pair);
+    const double retro = from_retro_deg(pair);
     const double theta_r = written_theta_r(scan, row);
     const auto [entry, is_new] =
         by_angle.try_emplace(centidegrees(scan.theta_i_deg[row]),
@@ -172,7 +97,7 @@ std::optional<AzimuthGap> azimuth_gap(const Scan& scan) {
   if (scan.geometry != ScanGeometry::hemispherical) return std::nullopt;
   std::vector<double> azimuths{0.0, 180.0};
   for (std::size_t row = 0; row < scan.size(); ++row) {
-    if (!is_polar(scan, row)) azimuths.push_back(std::fabs(delta_phi(scan, row)));
+    if (!is_polar(scan, row)) azimuths.push_back(std::fabs(delta_phi_deg(scan, row)));
   }
   if (azimuths.size() == 2) return std::nullopt;
   std::sort(azimuths.begin(), azimuths.end());
@@ -190,7 +115,7 @@ void count_sides(const Scan& scan, ScanStatistics& out) {
     const int side = scan.plane_side(row);
     out.forward += side > 0 ? 1 : 0;
     out.retro += side < 0 ? 1 : 0;
-    if (side == 0) ++(delta_phi(scan, row) > 0.0 ? out.left : out.right);
+    if (side == 0) ++(delta_phi_deg(scan, row) > 0.0 ? out.left : out.right);
   }
 }
 
@@ -213,8 +138,7 @@ ScanStatistics scan_statistics(const Scan& scan) {
   out.azimuth_gap = azimuth_gap(scan);
   count_sides(scan, out);
 
-  std::vector<Rows> repeats = grouped(scan, direction_key);
-  std::erase_if(repeats, [](const Rows& group) { return group.size() < 2; });
+  const std::vector<Rows> repeats = repeated_rows(scan);
   const std::vector<SwappedRows> pairs = swapped_rows(scan);
   out.reciprocal_pairs = pairs.size();
   out.repeated_directions = repeats.size();

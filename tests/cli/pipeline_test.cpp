@@ -107,12 +107,14 @@ TEST_F(Pipeline, ARecipeRepeatsAFit) {
 TEST_F(Pipeline, OpticalConstantsAreInterpolatedAtEachWavelength) {
   add_scan("s.csv");
   add("nk.csv", "wavelength_um,n,kappa\n0.4,1.0,2.0\n0.7,4.0,5.0\n");
-  must({"fit", "s.csv", "--components", "dd,udf", "--optical-constants", "nk.csv", "-o", "a.json"});
+  // A paint fitted as a metal is no good fit, and fails; its material is still written.
+  EXPECT_EQ(
+      run_here({"fit", "s.csv", "--components", "dd,udf", "--optical-constants", "nk.csv", "-o", "a.json"}).status, 1);
   const Material material = read_material(folder_ / "a.json");
   EXPECT_NEAR(material.channels[0].n.value(), 3.5, 1e-12) << "0.65 um";
   EXPECT_NEAR(material.channels[2].kappa.value(), 2.5, 1e-12) << "0.45 um";
   add("r.toml", "[optics]\noptical_constants = \"nk.csv\"\n");
-  must({"fit", "s.csv", "--recipe", "r.toml", "--components", "dd,udf", "-o", "b.json"});
+  EXPECT_EQ(run_here({"fit", "s.csv", "--recipe", "r.toml", "--components", "dd,udf", "-o", "b.json"}).status, 1);
   EXPECT_EQ(content("a.json"), content("b.json"));
 
   add("bare.csv", "theta_i,theta_r,R\n30,30,1\n30,20,0.5\n");
@@ -139,6 +141,28 @@ TEST_F(Pipeline, FitReportsAsJson) {
   EXPECT_EQ(json.at("channels").size(), 1U);
   EXPECT_EQ(json.at("channels")[0].at("name"), "G");
   EXPECT_FALSE(json.at("reflectance").empty());
+}
+
+TEST_F(Pipeline, AModelThatCannotDescribeTheScanIsSaidAndFails) {
+  std::string retro = "theta_i,theta_r,R\n";
+  for (int i = 10; i <= 60; i += 10) {
+    for (int r = -80; r <= 80; r += 2) {
+      const double value = 0.05 + 20.0 * std::exp(-0.1 * (r + i) * (r + i));
+      retro += std::to_string(i) + "," + std::to_string(r) + "," + std::to_string(value) + "\n";
+    }
+  }
+  add("retro.csv", retro);
+  const Outcome outcome = run_here({"fit", "retro.csv", "--components", "dd,uds,fs", "-o", "f.json"});
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_NE(outcome.out.find("verdict       FAILS"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("retro peak"), std::string::npos) << outcome.out;
+  EXPECT_EQ(read_material(folder_ / "f.json").components, (EffectSet{Effect::dd, Effect::uds, Effect::fs}));
+  const Outcome json = run_here({"fit", "retro.csv", "--components", "dd,uds,fs", "--json"});
+  EXPECT_EQ(json.status, 1);
+  const auto diagnostics = nlohmann::json::parse(json.out).at("diagnostics");
+  EXPECT_EQ(diagnostics.at("verdict"), "fails");
+  EXPECT_GT(diagnostics.at("regions").at("retro").at("of_misfit"), 0.7);
+  EXPECT_GT(diagnostics.at("misfit").at("peak"), 0.5);
 }
 
 TEST_F(Pipeline, EvalKeepsTheInputAsItStood) {

@@ -39,13 +39,18 @@ TEST(Uncertainty, IsTheSandwichOfTheWholeJacobian) {
   const Eigen::MatrixXd bread = (j.transpose() * j).inverse();
   const Eigen::VectorXd h = (j * bread).cwiseProduct(j).rowwise().sum();
   const Eigen::VectorXd e = r.array() / (1.0 - h.array());
+  const double s2 = r.squaredNorm() / static_cast<double>(3 * n - 10);
+  EXPECT_NEAR(u.residual_variance / s2, 1.0, 1e-12);
   const Eigen::MatrixXd v = bread * j.transpose() * e.array().square().matrix().asDiagonal() * j * bread;
   EXPECT_NEAR(u.shape[0].u / std::sqrt(v(0, 0)), 1.0, 1e-9);
+  EXPECT_NEAR(u.shape[0].u_unscaled / std::sqrt(bread(0, 0)), 1.0, 1e-9);
+  EXPECT_NEAR(u.shape[0].u_classical / std::sqrt(s2 * bread(0, 0)), 1.0, 1e-9);
   for (std::size_t c = 0; c < 3; ++c) {
     for (std::size_t k = 0; k < 3; ++k) {
       const auto at = static_cast<Eigen::Index>(1 + 3 * c + k);
       ASSERT_EQ(u.coefficients[c][k].state, ParameterState::free);
       EXPECT_NEAR(u.coefficients[c][k].u / std::sqrt(v(at, at)), 1.0, 1e-9);
+      EXPECT_NEAR(u.coefficients[c][k].u_classical / std::sqrt(s2 * bread(at, at)), 1.0, 1e-9);
     }
   }
 }
@@ -62,6 +67,8 @@ TEST(Uncertainty, HasNoneWhereFixed) {
   EXPECT_EQ(u.coefficients[0][0].state, ParameterState::fixed);
   EXPECT_EQ(u.coefficients[1][1].state, ParameterState::fixed);
   EXPECT_FALSE(std::isfinite(u.coefficients[1][1].u));
+  EXPECT_FALSE(std::isfinite(u.coefficients[1][1].u_classical));
+  EXPECT_FALSE(std::isfinite(u.coefficients[1][1].u_unscaled));
   EXPECT_EQ(u.coefficients[1][0].state, ParameterState::free);
 }
 
@@ -73,6 +80,40 @@ TEST(Uncertainty, GrowsWithTheNoise) {
     return uncertainties(problem, best.point, linearise(problem, best.point)).shape[0].u;
   };
   EXPECT_NEAR(slope_u(0.02) / slope_u(0.002), 10.0, 0.3);
+}
+
+// Where every reading has the same absolute noise all forms say the same, and the unscaled one says it of weights that
+// are the inverse variance.
+TEST(Uncertainty, FormsAgreeOnEvenNoise) {
+  const Material truth = test::ground_glass_41();
+  constexpr double noise = 0.003;
+  FitSettings s = settings_for(truth);
+  s.weight = Weight::none;
+  const Problem problem(simulate(truth, Sampling::hemisphere, {0.0, noise}, 9), s);
+  const Polished best = polish(problem, search(problem).minima.front());
+  const ParameterUncertainty slope = uncertainties(problem, best.point, linearise(problem, best.point)).shape[0];
+  EXPECT_NEAR(slope.u_classical / (noise * slope.u_unscaled), 1.0, 0.02);  // s of 10^4 readings is known to 0.7 %
+  EXPECT_NEAR(slope.u / slope.u_classical, 1.0, 0.05);
+}
+
+// As many readings as parameters leave no residual to estimate from, but weights that are known still state theirs.
+TEST(Uncertainty, UnscaledNeedsNoSpareReadings) {
+  const Material truth = test::ground_glass_41();
+  Scan scan = simulate(truth, Sampling::incidence_plane, {0.0, 0.0}, 1);
+  const std::vector<std::size_t> kept{0, 30, 33};
+  Scan few = select_channels(scan, {"R"});
+  for (std::vector<double>* column :
+       {&few.theta_i_deg, &few.phi_i_deg, &few.theta_r_deg, &few.phi_r_deg, &few.channels[0].values}) {
+    const std::vector<double> all = *column;
+    column->clear();
+    for (const std::size_t row : kept) column->push_back(all[row]);
+  }
+  const Problem problem(few, settings_for(truth));
+  const Polished best = polish(problem, search(problem).minima.front());
+  const ParameterUncertainty slope = uncertainties(problem, best.point, linearise(problem, best.point)).shape[0];
+  EXPECT_TRUE(std::isfinite(slope.u_unscaled));
+  EXPECT_FALSE(std::isfinite(slope.u_classical));
+  EXPECT_FALSE(std::isfinite(slope.u));
 }
 
 // The spread of the slope over simulated scans against what each scan states of itself.

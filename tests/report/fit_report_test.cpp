@@ -110,6 +110,59 @@ std::string without_colour(const std::string& text) {
   return std::regex_replace(text, std::regex("\x1b\\[[0-9]*m"), "");
 }
 
+TEST(SelectionBlock, MarksTheChosenSetAndCountsWhatWasNotTried) {
+  Sample sample(1);
+  Selection selection;
+  selection.rows.resize(2);
+  selection.rows[0].components = {Effect::dd, Effect::uds};
+  selection.rows[0].bic = 120.0;
+  selection.rows[0].cross_validated = 1.0125;
+  selection.rows[0].chosen = true;
+  selection.rows[1].components = {Effect::udf};
+  selection.rows[1].bic = 150.0;
+  selection.not_fitted = {{Effect::rough}};
+  selection.noise = {0.021, 0.0003};
+  selection.reason = "because";
+  sample.result.selection = selection;
+  const std::string text = fit_report(sample.result, sample.scan, {});
+  EXPECT_NE(line_with(text, "dd + uds  ").find("1.0125"), std::string::npos) << text;
+  EXPECT_NE(line_with(text, "→").find("dd + uds"), std::string::npos) << text;
+  EXPECT_NE(line_with(text, "  udf ").find("30"), std::string::npos) << text;
+  EXPECT_NE(text.find("2.1 % of the value and 0.0003 sr⁻¹"), std::string::npos) << text;
+  EXPECT_NE(text.find("1 more set was not tried"), std::string::npos) << text;
+  const auto json = nlohmann::json::parse(fit_report_json(sample.result, sample.scan)).at("selection");
+  EXPECT_EQ(json.at("reason"), "because");
+  EXPECT_EQ(json.at("sets").at(0).at("chosen"), true);
+  EXPECT_TRUE(json.at("sets").at(1).at("cross_validated").is_null());
+  EXPECT_EQ(json.at("not_tried").at(0).at(0), "rough");
+}
+
+TEST(MisfitBlock, VerdictFirstThenWhyThenTheWorstReadings) {
+  Sample sample(1);
+  FitDiagnostics d;
+  d.verdict = FitVerdict::fails;
+  d.findings = {"the first finding", "the second \x1b[31mfinding"};
+  d.channels.resize(1);
+  d.outlier_count = 12;
+  for (std::size_t i = 0; i < 5; ++i) d.outliers.push_back({i, 0, 0.25 + static_cast<double>(i), 0.125, 9.0});
+  sample.scan.phi_i_deg = sample.scan.theta_r_deg = sample.scan.phi_r_deg = sample.scan.theta_i_deg;
+  EXPECT_EQ(fit_report(sample.result, sample.scan, {}).find("Misfit"), std::string::npos) << "none was asked for";
+  sample.result.diagnostics = d;
+  const std::string text = fit_report(sample.result, sample.scan, {});
+  EXPECT_EQ(line_with(text, "FAILS"), "  verdict       FAILS");
+  EXPECT_EQ(line_with(text, "first finding"), "  because       the first finding");
+  EXPECT_EQ(line_with(text, "second"), "                the second ?[31mfinding");
+  EXPECT_NE(line_with(text, "2.25").find("0.125"), std::string::npos) << text;
+  EXPECT_EQ(line_with(text, "3.25"), "no line with 3.25") << "three are enough";
+  EXPECT_NE(text.find("(3 of 12; --json has 5)"), std::string::npos) << text;
+  const auto json = nlohmann::json::parse(fit_report_json(sample.result, sample.scan)).at("diagnostics");
+  EXPECT_EQ(json.at("verdict"), "fails");
+  EXPECT_EQ(json.at("outliers").size(), 5U);
+  EXPECT_EQ(json.at("outliers")[1].at("value"), 1.25);
+  EXPECT_TRUE(json.at("chi_square").is_null());
+  EXPECT_TRUE(json.at("channels")[0].at("runs").at("p").is_null());
+}
+
 TEST(ValueText, RoundsBothToTwoDigitsOfTheUncertainty) {
   struct Case {
     double value, u;

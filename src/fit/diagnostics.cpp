@@ -1,0 +1,315 @@
+#include "fit/diagnostics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "brdf/evaluator.h"
+#include "brdf/surface_shape.h"
+#include "fit/fit_spread.h"
+#include "fit/verdict.h"
+#include "geometry/angles.h"
+#include "scan/arrangement.h"
+
+namespace goniofit {
+
+namespace {
+
+constexpr double near_deg = 10.0;  // of the mirror and the retro direction
+constexpr double grazing_deg = 70.0;
+constexpr double outlier_sds = 6.0;
+constexpr std::size_t most_outliers = 10;
+constexpr double floor_sds = 3.0;
+constexpr double open_sds = 3.0;
+
+// Sums that a misfit is made of.
+struct Sums {
+  double r2 = 0.0, f2 = 0.0, r = 0.0, f = 0.0, signed_r2 = 0.0;
+  std::vector<double> parts;  // |r| / max(|f|, |model|) above the noise
+
+  void add(double weight, double value, double fitted, double floor, double open) {
+    const double residual = value - fitted;
+    r2 += weight * residual * residual;
+    signed_r2 += weight * residual * std::fabs(residual);
+    f2 += weight * value * value;
+    r += weight * std::fabs(residual);
+    f += weight * std::fabs(value);
+    const double larger = std::max(std::fabs(value), std::fabs(fitted));
+    if (larger > floor) parts.push_back(std::max(0.0, std::fabs(residual) - open) / larger);
+  }
+  void add(const Sums& other) {
+    r2 += other.r2, f2 += other.f2, r += other.r, f += other.f, signed_r2 += other.signed_r2;
+    parts.insert(parts.end(), other.parts.begin(), other.parts.end());
+  }
+  [[nodiscard]] std::optional<double> typical() {
+    return parts.empty() ? std::nullopt : std::optional(median_of(parts));
+  }
+  [[nodiscard]] Misfit misfit() { return {f2 > 0.0 ? std::sqrt(r2 / f2) : 0.0, f > 0.0 ? r / f : 0.0, typical()}; }
+};
+
+double quotient(double part, double whole) { return whole > 0.0 ? part / whole : 0.0; }
+
+Region region_of(const Scan& scan, std::size_t row, const Pair& pair) {
+  if (from_mirror_deg(pair) <= near_deg) return Region::mirror;
+  if (from_retro_deg(pair) <= near_deg) return Region::retro;
+  return scan.theta_r_deg[row] > grazing_deg && pair.forward ? Region::forward_grazing : Region::elsewhere;
+}
+
+class Diagnosis {
+ public:
+  Diagnosis(const Scan& scan, const Material& material, const DiagnosticsOptions& options)
+      : scan_(scan), material_(material), options_(options), place_(scan.size(), unused) {
+    choose_rows();
+    const Evaluator evaluator(material);
+    fitted_ = evaluator.values(pairs_);
+    open_ = value_uncertainties(material, pairs_, fitted_);
+    for (double& u : open_) u *= open_sds;
+    lines_ = detector_lines(scan);
+    pairs_of_rows_ = swapped_rows(scan);
+  }
+  [[nodiscard]] FitDiagnostics result();
+
+ private:
+  static constexpr std::size_t unused = static_cast<std::size_t>(-1);
+
+  void choose_rows();
+  void add_channel(std::size_t c);
+  void add_misfit(std::size_t c);
+  void add_runs(std::size_t c);
+  void add_noise(std::size_t c);
+  void add_counts(std::size_t c);
+  void add_regions();
+  void add_brightness();
+  void add_chi_square();
+  [[nodiscard]] double noise_floor(std::size_t c) const;
+  [[nodiscard]] std::optional<double> reciprocity(std::size_t c) const;
+  [[nodiscard]] double value(std::size_t i, std::size_t c) const { return scan_.channels[c].values[rows_[i]]; }
+  [[nodiscard]] double fitted(std::size_t i, std::size_t c) const { return fitted_[i * scan_.channels.size() + c]; }
+  [[nodiscard]] double open(std::size_t i, std::size_t c) const { return open_[i * scan_.channels.size() + c]; }
+  [[nodiscard]] double floor(std::size_t i, std::size_t c) const {
+    const ScanChannel& channel = scan_.channels[c];
+    return channel.u.empty() ? out_.channels[c].noise_floor : floor_sds * channel.u[rows_[i]];
+  }
+
+  const Scan& scan_;
+  const Material& material_;
+  DiagnosticsOptions options_;
+  Rows rows_;   // of the readings used
+  Rows place_;  // of each row of the scan in rows_
+  PairBatch pairs_;
+  std::vector<double> weight_, fitted_;
+  std::vector<double> open_;  // what parameters within their uncertainties change the fitted values by
+  std::vector<Region> region_;
+  std::vector<Rows> lines_;
+  std::vector<SwappedRows> pairs_of_rows_;
+  std::array<Sums, region_count> by_region_;
+  FitDiagnostics out_;
+};
+
+void Diagnosis::choose_rows() {
+  for (std::size_t row = 0; row < scan_.size(); ++row) {
+    const double theta = std::max(scan_.theta_i_deg[row], scan_.theta_r_deg[row]);
+    if (theta >= 90.0 || theta > options_.max_theta_deg) continue;
+    const Pair pair = make_pair(scan_.angles(row));
+    place_[row] = rows_.size();
+    rows_.push_back(row);
+    pairs_.push_back(pair);
+    weight_.push_back(options_.weight == Weight::cosine ? pair.cos_i : 1.0);
+    region_.push_back(region_of(scan_, row, pair));
+  }
+}
+
+// The additive noise of the scan itself: what readings between two others of a line differ from the straight line
+// through these, where the scan is darkest and a lobe's curvature and relative noise are least.
+double Diagnosis::noise_floor(std::size_t c) const {
+  constexpr std::size_t fewest = 10;
+  std::vector<double> sizes;
+  for (std::size_t i = 0; i < rows_.size(); ++i) sizes.push_back(std::fabs(value(i, c)));
+  if (sizes.empty()) return 0.0;
+  const auto quarter = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 4);
+  std::nth_element(sizes.begin(), quarter, sizes.end());
+  const double dark = *quarter;
+  const std::vector<double>& values = scan_.channels[c].values;
+  std::vector<double> differences;
+  for (const Rows& line : lines_) {
+    for (std::size_t j = 1; j + 1 < line.size(); ++j) {
+      const auto at = [&](std::size_t k) {
+        return delta_phi_deg(scan_, line[k]) > 0.0 ? scan_.theta_r_deg[line[k]] : -scan_.theta_r_deg[line[k]];
+      };
+      if (std::fabs(values[line[j]]) > dark || !(at(j + 1) > at(j - 1))) continue;
+      const double t = (at(j) - at(j - 1)) / (at(j + 1) - at(j - 1));
+      const double off = values[line[j]] - (1.0 - t) * values[line[j - 1]] - t * values[line[j + 1]];
+      differences.push_back(std::fabs(off) / std::sqrt(1.0 + t * t + (1.0 - t) * (1.0 - t)));
+    }
+  }
+  if (differences.size() < fewest) return 0.0;
+  // Never above the darkest quarter: a scan that is all noise is for the runs test to tell.
+  return std::min(floor_sds * 1.4826 * median_of(differences), dark);
+}
+
+std::optional<double> Diagnosis::reciprocity(std::size_t c) const {
+  std::vector<double> ratios = swapped_ratios(scan_.channels[c].values, pairs_of_rows_);
+  if (ratios.empty()) return std::nullopt;
+  for (double& ratio : ratios) ratio = std::fabs(std::log(ratio));
+  return median_of(ratios);
+}
+
+void Diagnosis::add_misfit(std::size_t c) {
+  std::array<Sums, region_count> regions;
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    regions[static_cast<std::size_t>(region_[i])].add(weight_[i], value(i, c), fitted(i, c), floor(i, c), open(i, c));
+  }
+  Sums channel;
+  for (std::size_t k = 0; k < region_count; ++k) {
+    channel.add(regions[k]);
+    by_region_[k].add(regions[k]);
+  }
+  out_.channels[c].misfit = channel.misfit();
+}
+
+void Diagnosis::add_runs(std::size_t c) {
+  std::vector<double> residuals;
+  for (const Rows& line : lines_) {
+    residuals.clear();
+    for (const std::size_t row : line) {
+      const std::size_t i = place_[row];
+      if (i == unused || in_mirror_cone(pairs_[i], material_.solid_angle_sr)) continue;
+      const double residual = value(i, c) - fitted(i, c);
+      if (std::fabs(residual) > open(i, c)) residuals.push_back(residual);
+    }
+    out_.channels[c].runs.add_line(residuals);
+  }
+}
+
+void Diagnosis::add_noise(std::size_t c) {
+  std::vector<double> model(rows_.size());
+  std::vector<double> residuals(rows_.size());
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    model[i] = fitted(i, c);
+    residuals[i] = value(i, c) - model[i];
+  }
+  const ResidualNoise noise = residual_noise(model, residuals);
+  out_.channels[c].residuals = noise;
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const double sds = quotient(std::fabs(residuals[i]), noise.sd(model[i]));
+    const double larger = std::max(std::fabs(value(i, c)), model[i]);
+    if (sds <= outlier_sds || std::fabs(residuals[i]) <= negligible_misfit * larger) continue;
+    ++out_.outlier_count;
+    out_.outliers.push_back({rows_[i], c, value(i, c), model[i], sds});
+  }
+}
+
+// Values that a detector or a program has cut off are alike to the last digit, which measured ones seldom are. Where
+// most of the readings are alike the surface is.
+void Diagnosis::add_counts(std::size_t c) {
+  ChannelDiagnostics& channel = out_.channels[c];
+  std::size_t zero = 0;
+  std::size_t at_maximum = 0;
+  double maximum = rows_.empty() ? 0.0 : value(0, c);
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    maximum = std::max(maximum, value(i, c));
+    zero += value(i, c) == 0.0 ? 1 : 0;
+  }
+  for (std::size_t i = 0; i < rows_.size(); ++i) at_maximum += value(i, c) == maximum ? 1 : 0;
+  channel.all_zero = zero == rows_.size();
+  const std::size_t chance = std::max<std::size_t>(4, rows_.size() / 100);
+  if (!channel.all_zero && zero > chance) channel.at_zero = zero;
+  if (maximum > 0.0 && at_maximum > chance && at_maximum <= rows_.size() / 2) channel.at_maximum = at_maximum;
+  channel.maximum = maximum;
+}
+
+void Diagnosis::add_channel(std::size_t c) {
+  ChannelDiagnostics& channel = out_.channels[c];
+  channel.noise_floor = noise_floor(c);
+  channel.reciprocity = reciprocity(c);
+  add_misfit(c);
+  add_runs(c);
+  add_noise(c);
+  add_counts(c);
+}
+
+void Diagnosis::add_regions() {
+  Sums all;
+  for (const Sums& sums : by_region_) all.add(sums);
+  out_.misfit = all.misfit();
+  for (const Region region : region_) ++out_.regions[static_cast<std::size_t>(region)].readings;
+  for (std::size_t k = 0; k < region_count; ++k) {
+    Sums& sums = by_region_[k];
+    RegionMisfit& to = out_.regions[k];
+    to.of_misfit = quotient(sums.r2, all.r2);
+    to.of_signal = quotient(sums.f2, all.f2);
+    to.excess = quotient(sums.signed_r2, sums.r2);
+    to.typical = sums.typical();
+  }
+}
+
+void Diagnosis::add_brightness() {
+  std::vector<double> squares;
+  std::vector<double> positive;
+  double total = 0.0;
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    for (std::size_t c = 0; c < scan_.channels.size(); ++c) {
+      squares.push_back(weight_[i] * value(i, c) * value(i, c));
+      total += squares.back();
+      if (value(i, c) > 0.0) positive.push_back(value(i, c));
+    }
+  }
+  out_.readings = squares.size();
+  std::sort(squares.begin(), squares.end(), std::greater<>());
+  double sum = 0.0;
+  while (out_.brightest < squares.size() && sum < 0.9 * total) sum += squares[out_.brightest++];
+  if (positive.empty()) return;
+  out_.brightness_range = *std::max_element(positive.begin(), positive.end()) / median_of(positive);
+}
+
+void Diagnosis::add_chi_square() {
+  double sum = 0.0;
+  std::size_t count = 0;
+  for (std::size_t c = 0; c < scan_.channels.size(); ++c) {
+    const std::vector<double>& u = scan_.channels[c].u;
+    for (std::size_t i = 0; !u.empty() && i < rows_.size(); ++i) {
+      if (!(u[rows_[i]] > 0.0)) continue;
+      sum += std::pow((value(i, c) - fitted(i, c)) / u[rows_[i]], 2);
+      ++count;
+    }
+  }
+  if (count > options_.free_parameters) out_.chi_square = reduced_chi_square(sum, count - options_.free_parameters);
+}
+
+FitDiagnostics Diagnosis::result() {
+  out_.channels.resize(scan_.channels.size());
+  for (std::size_t c = 0; c < scan_.channels.size(); ++c) add_channel(c);
+  add_regions();
+  add_brightness();
+  add_chi_square();
+  for (const ChannelDiagnostics& channel : out_.channels) {
+    out_.runs_testable = out_.runs_testable || channel.runs.testable();
+    const double p = channel.runs.p() * static_cast<double>(out_.channels.size());
+    if (channel.runs.testable()) out_.p_runs = std::min(out_.p_runs, p);
+  }
+  std::stable_sort(out_.outliers.begin(), out_.outliers.end(),
+                   [](const Outlier& a, const Outlier& b) { return a.sds > b.sds; });
+  out_.outliers.resize(std::min(out_.outliers.size(), most_outliers));
+  judge(scan_, material_, out_);
+  return std::move(out_);
+}
+
+}  // namespace
+
+std::string_view name_of(FitVerdict verdict) noexcept {
+  constexpr std::array<std::string_view, 3> names{"describes", "systematic", "fails"};
+  return names[static_cast<std::size_t>(verdict)];
+}
+
+std::string_view name_of(Region region) noexcept {
+  constexpr std::array<std::string_view, region_count> names{"mirror", "retro", "forward_grazing", "elsewhere"};
+  return names[static_cast<std::size_t>(region)];
+}
+
+double Misfit::typical_factor() const noexcept { return 1.0 / (1.0 - std::min(typical.value_or(0.0), 1.0)); }
+
+FitDiagnostics diagnose(const Scan& scan, const Material& material, const DiagnosticsOptions& options) {
+  return Diagnosis(scan, material, options).result();
+}
+
+}  // namespace goniofit

@@ -1,0 +1,84 @@
+#include "fit/noise_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numeric>
+
+namespace goniofit {
+
+namespace {
+
+constexpr double smallest_noise = 1e-6;
+// Standard deviation of a normal distribution over the median of its absolute value.
+constexpr double sigma_of_median = 1.4826022185056018;
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+struct NoiseClass {
+  double f2, variance;
+};
+
+std::vector<NoiseClass> classes_of(const Eigen::VectorXd& f, const Eigen::VectorXd& residual, double floor2) {
+  std::vector<Eigen::Index> order(static_cast<std::size_t>(f.size()));
+  std::iota(order.begin(), order.end(), Eigen::Index{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&f](Eigen::Index a, Eigen::Index b) { return std::fabs(f[a]) < std::fabs(f[b]); });
+  const std::size_t count = std::clamp<std::size_t>(order.size() / 25, 1, 20);
+  std::vector<NoiseClass> classes;
+  for (std::size_t c = 0; c < count; ++c) {
+    std::vector<double> f2;
+    std::vector<double> size;
+    for (std::size_t i = c * order.size() / count; i < (c + 1) * order.size() / count; ++i) {
+      f2.push_back(f[order[i]] * f[order[i]]);
+      size.push_back(std::fabs(residual[order[i]]));
+    }
+    const double sigma = sigma_of_median * median(size);
+    classes.push_back({median(f2), std::max(sigma * sigma, floor2)});
+  }
+  return classes;
+}
+
+}  // namespace
+
+Noise estimate_noise(const Eigen::VectorXd& f, const Eigen::VectorXd& residual) {
+  const double scale2 = f.squaredNorm() / static_cast<double>(f.size());
+  const double floor2 = smallest_noise * smallest_noise * scale2;
+  const std::vector<NoiseClass> classes = classes_of(f, residual, std::max(floor2, 1e-300));
+  // Least squares of variance = a2 + r2 f2 with errors proportional to the variance, both parts nonnegative. The errors
+  // follow the line itself, not the classes: else low classes would count for more.
+  double a2 = 0.0;
+  double r2 = 0.0;
+  for (int round = 0; round < 20; ++round) {
+    double w = 0.0, wx = 0.0, wxx = 0.0, wy = 0.0, wxy = 0.0;
+    for (const NoiseClass& c : classes) {
+      const double expected = round == 0 ? c.variance : a2 + r2 * c.f2;
+      const double weight = 1.0 / (expected * expected);
+      w += weight;
+      wx += weight * c.f2;
+      wxx += weight * c.f2 * c.f2;
+      wy += weight * c.variance;
+      wxy += weight * c.f2 * c.variance;
+    }
+    const double determinant = w * wxx - wx * wx;
+    const bool one = classes.size() < 2 || determinant <= 1e-12 * w * wxx;
+    a2 = one ? 0.0 : (wy * wxx - wxy * wx) / determinant;
+    r2 = one ? (wxx > 0.0 ? wxy / wxx : 0.0) : (w * wxy - wx * wy) / determinant;
+    if (a2 < 0.0) {
+      a2 = 0.0;
+      r2 = wxy / wxx;
+    } else if (r2 < 0.0) {
+      r2 = 0.0;
+      a2 = wy / w;
+    }
+    a2 = std::max(a2, std::max(floor2, 1e-300));
+    r2 = std::max(r2, smallest_noise * smallest_noise);
+  }
+  return {std::sqrt(r2), std::sqrt(a2)};
+}
+
+}  // namespace goniofit

@@ -1,0 +1,19 @@
+#pragma once
+// Search and polish: the global minimum of a problem.
+
+#include <cstddef>
+
+#include "polish.h"
+#include "problem.h"
+
+namespace goniofit {
+
+struct Solved {
+  Polished best;
+  std::size_t evaluations = 0;  ///< points of the search
+  std::size_t starts = 0, iterations = 0;
+};
+
+[[nodiscard]] Solved solve(const Problem& problem, double tolerance = result_accuracy);
+
+}  // namespace goniofit

@@ -7,6 +7,7 @@
 #include "brdf/evaluator.h"
 #include "brdf/surface_shape.h"
 #include "fit/fit_spread.h"
+#include "fit/noise_model.h"
 #include "fit/verdict.h"
 #include "geometry/angles.h"
 #include "scan/arrangement.h"
@@ -182,20 +183,23 @@ void Diagnosis::add_runs(std::size_t c) {
 }
 
 void Diagnosis::add_noise(std::size_t c) {
-  std::vector<double> model(rows_.size());
-  std::vector<double> residuals(rows_.size());
-  for (std::size_t i = 0; i < rows_.size(); ++i) {
-    model[i] = fitted(i, c);
-    residuals[i] = value(i, c) - model[i];
+  const auto n = static_cast<Eigen::Index>(rows_.size());
+  Eigen::VectorXd model(n);
+  Eigen::VectorXd residuals(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    model[i] = fitted(static_cast<std::size_t>(i), c);
+    residuals[i] = value(static_cast<std::size_t>(i), c) - model[i];
   }
-  const ResidualNoise noise = residual_noise(model, residuals);
+  const Noise noise = estimate_noise(model, residuals);
   out_.channels[c].residuals = noise;
   for (std::size_t i = 0; i < rows_.size(); ++i) {
-    const double sds = quotient(std::fabs(residuals[i]), noise.sd(model[i]));
-    const double larger = std::max(std::fabs(value(i, c)), model[i]);
-    if (sds <= outlier_sds || std::fabs(residuals[i]) <= negligible_misfit * larger) continue;
+    const auto at = static_cast<Eigen::Index>(i);
+    const double size = std::fabs(residuals[at]);
+    const double sds = quotient(size, noise.sd(model[at]));
+    const double larger = std::max(std::fabs(value(i, c)), model[at]);
+    if (sds <= outlier_sds || size <= negligible_misfit * larger) continue;
     ++out_.outlier_count;
-    out_.outliers.push_back({rows_[i], c, value(i, c), model[i], sds});
+    out_.outliers.push_back({rows_[i], c, value(i, c), model[at], sds});
   }
 }
 

@@ -45,8 +45,8 @@ struct Misfit {
 
 struct ChannelDiagnostics {
   Misfit misfit;
-  RunsTest runs;  ///< readings in the mirror cone excluded: theirs is coh's, and the instrument's; others as above
-  ResidualNoise residuals;   ///< their robust spread; misfit included
+  RunsTest runs;    ///< readings in the mirror cone excluded: theirs is coh's, and the instrument's; others as above
+  Noise residuals;  ///< their robust spread; misfit included
   double noise_floor = 0.0;  ///< 1/sr: thrice the additive noise of the scan itself; 0 where it cannot be told
   bool all_zero = false;
   std::size_t at_zero = 0;     ///< readings of exactly 0, where they are too many for chance

@@ -46,6 +46,7 @@ std::vector<NoiseClass> classes_of(const Eigen::VectorXd& f, const Eigen::Vector
 }  // namespace
 
 Noise estimate_noise(const Eigen::VectorXd& f, const Eigen::VectorXd& residual) {
+  if (f.size() == 0) return {};
   const double scale2 = f.squaredNorm() / static_cast<double>(f.size());
   const double floor2 = smallest_noise * smallest_noise * scale2;
   const std::vector<NoiseClass> classes = classes_of(f, residual, std::max(floor2, 1e-300));

@@ -11,7 +11,7 @@ namespace goniofit {
 /// `f` and `residual` of the same length, 1/sr. Robust: medians of the residuals' size over classes of equal numbers of
 /// readings, sorted by f, and through these the line of the variance over f², each class with the same relative
 /// error. Neither part is ever less than 1e-6 of f (of its root mean square): what a fit of noise-free values leaves is
-/// round-off.
+/// round-off. Zeros of no readings.
 [[nodiscard]] Noise estimate_noise(const Eigen::VectorXd& f, const Eigen::VectorXd& residual);
 
 }  // namespace goniofit

@@ -1,5 +1,5 @@
 #pragma once
-// What residuals say by themselves: whether they are noise, and of which size.
+// What residuals say by themselves: whether they are noise.
 
 #include <cstddef>
 #include <vector>
@@ -24,19 +24,6 @@ struct RunsTest {
   /// speak for the scan.
   [[nodiscard]] bool testable() const noexcept { return comparisons() >= 20 && 2 * comparisons() >= readings; }
 };
-
-/// Standard deviation of the residuals as sqrt((relative f)² + additive²), from medians: a part below one half of gross
-/// errors does not move it far.
-struct ResidualNoise {
-  double relative = 0.0;  ///< of the fitted value
-  double additive = 0.0;  ///< 1/sr
-
-  [[nodiscard]] double sd(double fitted) const noexcept;
-};
-
-/// From groups of readings of like fitted value, in each of which 1.4826 times the median of |residual| is the robust
-/// standard deviation. Both vectors have one length; zeros where they are empty. O(n log n).
-[[nodiscard]] ResidualNoise residual_noise(const std::vector<double>& fitted, const std::vector<double>& residuals);
 
 /// Chi-square of residuals over their stated uncertainties, by degrees of freedom.
 struct ReducedChiSquare {

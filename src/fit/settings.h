@@ -1,6 +1,7 @@
 #pragma once
 // What is asked of a fit: the value that recipe and flags are merged into. No file format.
 
+#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <limits>
@@ -49,6 +50,8 @@ inline constexpr double n_min = 1e-3, n_max = 100.0;
 struct Noise {
   double relative = 0.0;  ///< standard deviation as a part of the value
   double additive = 0.0;  ///< standard deviation in 1/sr
+
+  [[nodiscard]] double sd(double f) const noexcept { return std::hypot(relative * f, additive); }
 };
 
 enum class Sampling : std::uint8_t { incidence_plane, hemisphere };

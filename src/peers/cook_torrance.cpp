@@ -1,14 +1,11 @@
 #include "peers/cook_torrance.h"
 
-#include "basis/pointwise_basis.h"
+#include "peers/lobe_basis.h"
 
 namespace goniofit {
 
 std::unique_ptr<const Basis> make_cook_torrance() {
-  return std::make_unique<PointwiseBasis<CookTorrance>>(
-      std::vector<BasisCoefficient>{diffuse_coefficient(), {"k_s", 0.0, 1.0}},
-      std::vector<BasisColumn>{diffuse_column(), {1, OpticsFactor::fresnel, true}},
-      std::vector<ShapeParameter>{width_parameter("m")});
+  return make_lambert_and_lobe<CookTorrance>(OpticsFactor::fresnel, 1.0, {width_parameter("m")});
 }
 
 }  // namespace goniofit

@@ -1,7 +1,6 @@
 // The bars of a comparison, drawn by gnuplot.
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <string>
 
@@ -18,16 +17,6 @@ namespace {
 
 constexpr double width = 760.0, bar_height = 24.0, margins = 110.0;
 constexpr double log_above = 10.0;
-
-bool is_png(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (extension != ".png" && extension != ".svg") {
-    throw usage_error(path.string() + ": a plot is written as .svg or .png, not as '" + extension + "'");
-  }
-  return extension == ".png";
-}
 
 std::string terminal(bool png, double height) {
   const char* const kind = png ? "pngcairo" : "svg";

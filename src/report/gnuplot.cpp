@@ -5,7 +5,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
@@ -118,6 +120,16 @@ std::string gnuplot_quoted(const std::string& text) {
     }
   }
   return quoted + "'";
+}
+
+bool is_png(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (extension != ".png" && extension != ".svg") {
+    throw usage_error(path.string() + ": a plot is written as .svg or .png, not as '" + extension + "'");
+  }
+  return extension == ".png";
 }
 
 void run_gnuplot(const std::string& script, const std::filesystem::path& output) {

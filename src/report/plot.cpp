@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <iterator>
 #include <string>
@@ -62,16 +61,6 @@ struct Layout {
   double font_unit;  // pngcairo counts points, svg pixels
   double width = 0.0, height = 0.0;
 };
-
-bool is_png(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (extension != ".png" && extension != ".svg") {
-    throw usage_error(path.string() + ": a plot is written as .svg or .png, not as '" + extension + "'");
-  }
-  return extension == ".png";
-}
 
 std::string font_text(const Layout& layout, double pixels) {
   return fmt::format("sans-serif,{:.4g}", pixels * layout.font_unit);

@@ -1,5 +1,9 @@
 #pragma once
-// The slope distribution D in LT's normalisation, D = (pi/4) D_Beckmann(alpha = 2 m_e).
+// The slope distribution D in LT's normalisation, D = (pi/4) D_Beckmann(alpha = 2 m_e). Tier `rough-limit`, LT (10)
+// with the dimensionless s, is (|s|²/s_z)² exp(-y) / (16 m_e² s_z²), y = tan²θ_b/(4 m_e²), m_e = sigma_e/tau: the limit
+// of He et al. 1991 for g >> 1. 1/m_e² and the exponential each leave the range of doubles towards grazing while their
+// product does not, so what varies with the shape is carried as a logarithm (log_lobe in brdf/surface_shape.h) beside
+// slope_independent_factor.
 
 #include "../geometry/pair.h"
 #include "log1p_ratio.h"
@@ -13,15 +17,6 @@ template <class T, class G>
 [[nodiscard]] [[gnu::always_inline]] inline T over_m_e2(const G& tan2, const T& log_m_e) {
   using namespace math;
   return select(tan2 > 0.0, T(tan2 * exp(-2.0 * log_m_e)), T(0.0));
-}
-
-/// Tier `rough-limit` (LT (10) with the dimensionless s): D = (|s|²/s_z)² exp(-tan²θ_b/(4 m_e²)) / (16 m_e² s_z²),
-/// m_e = sigma_e/tau. The limit of He et al. 1991 for g >> 1. Two logarithms and one exponential together, because
-/// 1/m_e² and the exponential each leave the range of doubles towards grazing while their product does not. Returns D
-/// without its factor (|s|²/s_z)²/(16 s_z²), which no parameter touches: see slope_independent_factor.
-template <class T, class G>
-[[nodiscard]] [[gnu::always_inline]] inline T rough_limit_log(const T& log_m_e, const BasicPair<G>& p) {
-  return -2.0 * log_m_e - 0.25 * over_m_e2(p.tan2_b, log_m_e);
 }
 
 /// Tier `student-t` (Ribardière et al. 2017), D = (γ-1)^γ α^(2γ-2) / (π cos⁴θ_b ((γ-1)α² + tan²θ_b)^γ) with α = 2 m_e
@@ -43,12 +38,6 @@ template <class T>
   const T within = select(growth < 600.0, growth, T(600.0));
   const T beyond = select(y > 0.0, T(growth - within), T(0.0));
   return student_t_exponent(T(y * exp(within)), tail) - tail * beyond;
-}
-
-/// ln D of tier `student-t`, without slope_independent_factor as above.
-template <class T, class G>
-[[nodiscard]] [[gnu::always_inline]] inline T student_t_log(const T& log_m_e, const T& tail, const BasicPair<G>& p) {
-  return -2.0 * log_m_e + student_t_exponent(T(0.25 * over_m_e2(p.tan2_b, log_m_e)), tail);
 }
 
 /// (|s|²/s_z)²/(16 s_z²) = (1 + tan²θ_b)²/16.

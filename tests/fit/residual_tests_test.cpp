@@ -80,28 +80,6 @@ TEST(RunsTest, FindsASlowWaveUnderNoise) {
   EXPECT_LT(runs.p(), 1e-6);
 }
 
-TEST(ResidualNoise, FindsBothPartsAmongGrossErrors) {
-  std::mt19937_64 random(11);
-  std::vector<double> f(4000);
-  std::vector<double> r = gaussian(random, f.size());
-  for (std::size_t i = 0; i < f.size(); ++i) {
-    f[i] = std::pow(10.0, -4.0 + 5.0 * static_cast<double>(i) / 4000.0);
-    r[i] *= std::hypot(0.03 * f[i], 0.002);
-    if (i % 20 == 0) r[i] = 10.0;  // 5 % are wild
-  }
-  const ResidualNoise noise = residual_noise(f, r);
-  EXPECT_NEAR(noise.relative, 0.03, 0.004);
-  EXPECT_NEAR(noise.additive, 0.002, 0.0003);
-  EXPECT_NEAR(noise.sd(0.1), std::hypot(0.003, 0.002), 4e-4);
-}
-
-TEST(ResidualNoise, OfFewOrAlikeOrNoReadings) {
-  EXPECT_EQ(residual_noise({}, {}).additive, 0.0);
-  EXPECT_EQ(residual_noise({1, 2, 3}, {0, 0, 0}).sd(2.0), 0.0);
-  const ResidualNoise alike = residual_noise(std::vector<double>(50, 0.3), std::vector<double>(50, -0.01));
-  EXPECT_NEAR(alike.sd(0.3), 0.014826, 1e-9) << "all are 0.674 standard deviations";
-}
-
 TEST(ReducedChiSquare, HasTheTabulatedRange) {
   const ReducedChiSquare chi = reduced_chi_square(12.0, 10);
   EXPECT_DOUBLE_EQ(chi.value, 1.2);

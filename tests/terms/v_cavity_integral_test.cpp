@@ -103,6 +103,26 @@ TEST(VCavities, FacetsAreThoseOfTheVectors) {
   }
 }
 
+// (12): the mean of the uni-directional facets over their azimuth, by the midpoint rule, which the kinks leave at 1e-5.
+TEST(VCavities, IsotropicSurfaceIsTheMeanOfItsFacets) {
+  for (const AnglePair a : {in_plane(30.0, -50.0), in_plane(60.0, 70.0), AnglePair{45.0, 10.0, 65.0, 100.0}}) {
+    const Pair p = make_pair(a);
+    for (const double theta_a : {0.05, 0.4, 1.0}) {
+      constexpr int facets = 20000;
+      double direct = 0.0;
+      double interreflection = 0.0;
+      for (int i = 0; i < facets; ++i) {
+        const FacetReflectance f = uni_directional_facet(p, theta_a, 2.0 * pi * (i + 0.5) / facets);
+        direct += f.direct / facets;
+        interreflection += f.interreflection / facets;
+      }
+      const FacetReflectance mean = isotropic_single_slope(p, theta_a);
+      EXPECT_NEAR(mean.direct, direct, 1e-5 * (1.0 + direct)) << theta_a;
+      EXPECT_NEAR(mean.interreflection, interreflection, 1e-5) << theta_a;
+    }
+  }
+}
+
 TEST(VCavities, AttenuationIsShadowingAndMaskingWhicheverIsMore) {
   EXPECT_EQ(geometric_attenuation(1.0, 1.0), 1.0);
   EXPECT_EQ(geometric_attenuation(2.0, 2.0), 1.0);

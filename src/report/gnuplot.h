@@ -10,8 +10,8 @@ namespace goniofit {
 /// it. Control characters become blanks.
 [[nodiscard]] std::string gnuplot_quoted(const std::string& text);
 
-/// Whether a plot goes to a PNG file; else it is an SVG. Throws Error (bad_input) for any other extension, in any case of
-/// its letters.
+/// Whether a plot goes to a PNG file; else it is an SVG. Throws Error (bad_input) for any other extension, in any case
+/// of its letters.
 [[nodiscard]] bool is_png(const std::filesystem::path& path);
 
 /// Runs gnuplot on `script`, whose terminal writes to standard output, into `output`. No shell is involved and the

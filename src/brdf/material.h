@@ -129,6 +129,11 @@ struct MaterialChannel {
   friend bool operator==(const MaterialChannel&, const MaterialChannel&) = default;
 };
 
+struct Interval {
+  double lower = 0.0, upper = 0.0;
+  friend bool operator==(const Interval&, const Interval&) = default;
+};
+
 /// What the fit that made the material says of itself; absent in a hand-written one.
 struct FitSummary {
   double loss = 0.0;  ///< sum over samples and channels of cos(theta_i) |f_model - f_measured|², not halved
@@ -138,6 +143,7 @@ struct FitSummary {
   std::map<std::string, double> shared_uncertainty;                          ///< by parameter: "slope"
   std::map<std::string, std::map<std::string, double>> channel_uncertainty;  ///< by channel, then parameter
   std::map<std::string, bool> identifiable;                                  ///< by parameter: "slope", "R.k_fs"
+  std::map<std::string, Interval> interval_95;                               ///< by parameter, likewise
   friend bool operator==(const FitSummary&, const FitSummary&) = default;
 };
 

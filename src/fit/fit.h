@@ -22,7 +22,10 @@ struct FittedParameter {
   std::optional<double> value;          ///< null: the scan does not determine it
   std::optional<double> u;              ///< standard uncertainty; null where fixed, on a bound or undetermined
   std::optional<double> u_classical{};  ///< the same if all residuals had one variance, s² (JᵀJ)⁻¹: see uncertainty.h
-  double lower = 0.0, upper = 0.0;      ///< bounds; infinity for none
+  /// What the truth lies in with that probability. On a bound one-sided: from the bound to the limit.
+  std::optional<Interval> interval_68{}, interval_95{};
+  std::optional<double> coverage_factor{};  ///< k of U = k u, of 95 %
+  double lower = 0.0, upper = 0.0;          ///< bounds; infinity for none
   bool fixed = false;
   bool derived = false;  ///< computed from others (tau from slope and sigma)
   bool at_lower = false, at_upper = false;

@@ -329,6 +329,9 @@ void Problem::fill_targets(const Scan& scan) {
     for (Eigen::Index i = 0; i < n; ++i) values[i] = scan.channels[c].values[rows[static_cast<std::size_t>(i)]];
     exclusions.negative_values += static_cast<std::size_t>((values.array() < 0.0).count());
     add_target(channels[c], std::move(values));
+    if (scan.channels[c].u.empty()) continue;
+    channels[c].u.resize(n);
+    for (Eigen::Index i = 0; i < n; ++i) channels[c].u[i] = scan.channels[c].u[rows[static_cast<std::size_t>(i)]];
   }
 }
 

@@ -42,6 +42,7 @@ struct ProblemChannel {
   ChannelOptics optics{};          ///< where fixed; the start where free
   std::optional<double> n, kappa;  ///< as given; empty where f0 was
   Eigen::VectorXd target;          ///< weight * value, one a reading used
+  Eigen::VectorXd u;               ///< standard uncertainty of the values, 1/sr; empty where the scan states none
   /// A factor of each residual beside the weight that all channels share; empty for 1. A polish reads it, a search does
   /// not.
   Eigen::VectorXd emphasis;

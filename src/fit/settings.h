@@ -19,8 +19,20 @@ struct ParameterSetting {
   std::optional<double> value, min, max;
 };
 
-/// Each sample's weight in the loss, on top of nothing else: the published cos(theta_i), or 1.
-enum class Weight : std::uint8_t { cosine, none };
+/// Each reading's weight in the loss, beside what the loss itself weighs by: the published cos(theta_i), or 1; on top
+/// of either the solid angle that the reading stands for among its neighbours, for scans of uneven sampling.
+enum class Weight : std::uint8_t { cosine, none, cosine_solid_angle, solid_angle };
+/// What a fit makes least: see fit/loss.h.
+enum class Loss : std::uint8_t { cosine_l2, inverse_variance, relative, log1p, cube_root };
+enum class RobustKernel : std::uint8_t { none, huber, soft_l1, cauchy, tukey };
+
+/// Readings that a fit leaves out, each rule counted in its report; theta beyond FitSettings::max_theta_deg as well.
+struct ExclusionSettings {
+  double retro_cone_deg = 0.0;             ///< readings as near to the retro direction as this
+  std::optional<double> saturated_from{};  ///< values of at least this, 1/sr, in their own channel
+  bool saturated = false;  ///< values of exactly a channel's largest, where more than chance would have it reached it
+  bool clamped = false;    ///< values of exactly 0
+};
 /// What of the optical constants the fit may move, per channel.
 enum class FreeOptics : std::uint8_t { none, n, f0 };
 
@@ -31,6 +43,12 @@ struct FitSettings {
   Forms forms;
   bool anisotropic = false;  ///< two slopes; also where slope_y has a setting
   Weight weight = Weight::cosine;
+  Loss loss = Loss::cosine_l2;
+  RobustKernel robust = RobustKernel::none;
+  std::optional<double> robust_scale;  ///< residual at which the kernel sets in, in the loss's unit; else estimated
+  ExclusionSettings exclusions;
+  /// Relative standard uncertainty of the instrument's absolute scale, common to all readings; else the scan's.
+  std::optional<double> scale_u;
   std::vector<double> n, kappa, f0;  ///< none (scan's metadata, else n = 1.5, kappa = 0), one, or one a channel
   FreeOptics free_optics = FreeOptics::none;
   /// By name: a shape parameter (slope, tail ...), tau_um, a coefficient (k_dd, rho ...), n or f0 for every channel, or

@@ -125,8 +125,15 @@ void read_uncertainty(const JsonValue& object, FitSummary& fit) {
   });
 }
 
+Interval read_interval(const JsonValue& value) {
+  std::vector<double> limits;
+  value.for_each_element([&](const JsonValue& limit) { limits.push_back(limit.number()); });
+  if (limits.size() != 2 || limits[0] > limits[1]) value.fail("is no interval, expected [lower, upper]");
+  return {limits[0], limits[1]};
+}
+
 FitSummary read_fit(const JsonValue& object) {
-  object.expect_keys({"loss", "rms", "samples", "converged", "uncertainty", "identifiable"});
+  object.expect_keys({"loss", "rms", "samples", "converged", "uncertainty", "identifiable", "interval_95"});
   FitSummary fit;
   fit.loss = object.at("loss").number();
   fit.rms = object.at("rms").number();
@@ -136,6 +143,10 @@ FitSummary read_fit(const JsonValue& object) {
   if (const auto identifiable = object.find("identifiable")) {
     identifiable->for_each_member(
         [&](const std::string& name, const JsonValue& value) { fit.identifiable[name] = value.boolean(); });
+  }
+  if (const auto intervals = object.find("interval_95")) {
+    intervals->for_each_member(
+        [&](const std::string& name, const JsonValue& value) { fit.interval_95[name] = read_interval(value); });
   }
   return fit;
 }
@@ -243,12 +254,16 @@ Ordered fit_json(const FitSummary& fit, const std::vector<MaterialChannel>& chan
     const auto by_parameter = fit.channel_uncertainty.find(channel.name);
     if (by_parameter != fit.channel_uncertainty.end()) uncertainty[channel.name] = by_parameter->second;
   }
-  return {{"loss", fit.loss},
-          {"rms", fit.rms},
-          {"samples", fit.samples},
-          {"converged", fit.converged},
-          {"uncertainty", std::move(uncertainty)},
-          {"identifiable", fit.identifiable}};
+  Ordered out{{"loss", fit.loss},
+              {"rms", fit.rms},
+              {"samples", fit.samples},
+              {"converged", fit.converged},
+              {"uncertainty", std::move(uncertainty)},
+              {"identifiable", fit.identifiable}};
+  for (const auto& [parameter, interval] : fit.interval_95) {
+    out["interval_95"][parameter] = {interval.lower, interval.upper};
+  }
+  return out;
 }
 
 }  // namespace

@@ -129,7 +129,6 @@ std::string fit_report_json(const FitResult& result, const Scan& scan) {
                    {"seconds", result.seconds}};
   out["diagnostics"] = result.diagnostics ? misfit_json(*result.diagnostics, scan) : Json(nullptr);
   out["selection"] = selection_json(result.selection);
-  out["diagnostics"] = result.diagnostics ? misfit_json(*result.diagnostics, scan) : Json(nullptr);
   out["reflectance"] = reflectance_json(result);
   out["notes"] = result.notes;
   out["warnings"] = result.warnings;

@@ -6,17 +6,11 @@
 
 #include "geometry/angles.h"
 #include "support/error.h"
-#include "support/text.h"
+#include "support/named.h"
 
 namespace goniofit {
 
 namespace {
-
-template <class E>
-struct Named {
-  E value;
-  std::string_view name;
-};
 
 constexpr std::array effect_names{Named<Effect>{Effect::coh, "coh"}, Named<Effect>{Effect::dd, "dd"},
                                   Named<Effect>{Effect::udf, "udf"}, Named<Effect>{Effect::uds, "uds"},
@@ -61,10 +55,7 @@ constexpr std::span<const Named<AnisotropyForm>> names(AnisotropyForm) { return 
 
 template <class E>
 std::string_view find_name(E value) noexcept {
-  for (const Named<E>& entry : names(value)) {
-    if (entry.value == value) return entry.name;
-  }
-  return {};
+  return name_in(names(value), value);
 }
 
 }  // namespace
@@ -81,17 +72,12 @@ std::string_view name_of(AnisotropyForm f) noexcept { return find_name(f); }
 
 template <class E>
 std::optional<E> parse_name(std::string_view name) noexcept {
-  for (const Named<E>& entry : names(E{})) {
-    if (entry.name == name) return entry.value;
-  }
-  return std::nullopt;
+  return value_in(names(E{}), name);
 }
 
 template <class E>
 std::string names_of() {
-  std::vector<std::string_view> all;
-  for (const Named<E>& entry : names(E{})) all.push_back(entry.name);
-  return alternatives(all);
+  return names_in(names(E{}));
 }
 
 template std::optional<Effect> parse_name(std::string_view) noexcept;

@@ -7,7 +7,9 @@
 #include "basis/basis.h"
 #include "brdf/named_terms.h"
 #include "cli/number_arguments.h"
+#include "fit/loss.h"
 #include "io/recipe_optics.h"
+#include "io/reflectance_reader.h"
 #include "peers/peers.h"
 #include "support/error.h"
 #include "support/text.h"
@@ -140,15 +142,30 @@ void apply_parameters(const FitFlags& flags, FitSettings& settings) {
   }
 }
 
-void apply_loss(const FitFlags& flags, FitSettings& settings) {
-  if (flags.loss && *flags.loss != "cosine-l2")
-    throw usage_error("--loss: " + in_quotes(*flags.loss) + ", expected cosine-l2");
-  if (flags.weight) {
-    if (*flags.weight != "cosine" && *flags.weight != "none") {
-      throw usage_error("--weight: " + in_quotes(*flags.weight) + ", expected cosine or none");
-    }
-    settings.weight = *flags.weight == "none" ? Weight::none : Weight::cosine;
+double parse_positive(const std::string& text, const std::string& flag) {
+  const double value = parse_number(text, flag);
+  if (value <= 0.0) throw usage_error(flag + ": " + in_quotes(text) + ", expected a number above 0");
+  return value;
+}
+
+void apply_exclusions(const FitFlags& flags, ExclusionSettings& exclude) {
+  if (flags.exclude_retro) exclude.retro_cone_deg = parse_positive(*flags.exclude_retro, "--exclude-retro");
+  if (flags.exclude_saturated && *flags.exclude_saturated == "auto") {
+    exclude.saturated = true;
+  } else if (flags.exclude_saturated) {
+    exclude.saturated_from = parse_positive(*flags.exclude_saturated, "--exclude-saturated");
   }
+  if (flags.exclude_clamped) exclude.clamped = true;
+}
+
+void apply_loss(const FitFlags& flags, FitSettings& settings) {
+  if (flags.loss) settings.loss = parse_enum<Loss>(*flags.loss, "--loss");
+  if (flags.weight) settings.weight = parse_enum<Weight>(*flags.weight, "--weight");
+  if (flags.robust) {
+    settings.robust = parse_enum<RobustKernel>(*flags.robust, "--robust");
+    settings.robust_scale.reset();
+  }
+  if (flags.robust_scale) settings.robust_scale = parse_positive(*flags.robust_scale, "--robust-scale");
   if (flags.max_theta) {
     settings.max_theta_deg = parse_number(*flags.max_theta, "--max-theta");
     if (settings.max_theta_deg <= 0.0 || settings.max_theta_deg > 90.0) {
@@ -204,6 +221,18 @@ void add_fit_flags(CLI::App& command, FitFlags& flags) {
   once("--solid-angle", flags.solid_angle, "solid angle of the source, for coh")->type_name("SR")->group("Optics");
   once("--channels", flags.channels, "channels to fit (450nm,550nm or R,G)")->type_name("LIST")->group("Data");
   once("--max-theta", flags.max_theta, "leave out readings with an angle beyond this")->type_name("DEG")->group("Data");
+  once("--exclude-retro", flags.exclude_retro, "leave out readings as near to the retro direction as this")
+      ->type_name("DEG")
+      ->group("Data");
+  once("--exclude-saturated", flags.exclude_saturated,
+       "leave out values from this on, or 'auto': a largest value that repeats")
+      ->type_name("VALUE")
+      ->group("Data");
+  command.add_flag("--exclude-clamped", flags.exclude_clamped, "leave out values of exactly 0")->group("Data");
+  once("--reflectances", flags.reflectances,
+       "directional-hemispherical reflectances to fit beside the scan: CSV of theta_i and channels")
+      ->type_name("FILE")
+      ->group("Data");
   once("--fix", flags.fixed, "fix a parameter; may be repeated (k_fs=0, R.k_dd=0.5)")
       ->type_name("NAME=VALUE")
       ->allow_extra_args(false)
@@ -212,16 +241,26 @@ void add_fit_flags(CLI::App& command, FitFlags& flags) {
       ->type_name("NAME=MIN:MAX")
       ->allow_extra_args(false)
       ->group("Parameters");
-  once("--loss", flags.loss, "cosine-l2: the sum of cos(theta_i) |difference|² over readings and channels")
+  once("--loss", flags.loss, names_of<Loss>() + " (default cosine-l2: the sum of cos(theta_i) |difference|²)")
       ->type_name("LOSS")
       ->group("Loss");
-  once("--weight", flags.weight, "cosine (default) or none: the weight of a reading")
+  once("--weight", flags.weight, "of a reading, on top of the loss: " + names_of<Weight>())
       ->type_name("WEIGHT")
+      ->group("Loss");
+  once("--robust", flags.robust, "large residuals count for less: " + names_of<RobustKernel>())
+      ->type_name("KERNEL")
+      ->group("Loss");
+  once("--robust-scale", flags.robust_scale, "where the kernel sets in, instead of an estimate from the residuals")
+      ->type_name("SIZE")
       ->group("Loss");
 }
 
 std::vector<std::string> channels_of(const FitFlags& flags, const Recipe& recipe) {
   return flags.channels ? parse_words(*flags.channels, "--channels") : recipe.channels;
+}
+
+std::optional<std::filesystem::path> reflectances_of(const FitFlags& flags, const Recipe& recipe) {
+  return flags.reflectances ? flags.reflectances : recipe.reflectances;
 }
 
 std::optional<std::filesystem::path> optical_constants_of(const FitFlags& flags, const Recipe& recipe) {
@@ -238,6 +277,8 @@ FitSettings settings_of(const FitFlags& flags, const Recipe& recipe, const Scan&
   apply_optics(flags, recipe, scan, settings);
   apply_parameters(flags, settings);
   apply_loss(flags, settings);
+  apply_exclusions(flags, settings.exclusions);
+  if (const auto file = reflectances_of(flags, recipe)) settings.reflectances = read_reflectances(*file);
   return settings;
 }
 

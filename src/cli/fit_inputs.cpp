@@ -26,6 +26,7 @@ std::vector<std::filesystem::path> inputs_of(const ScanOptions& options, const F
   std::vector<std::filesystem::path> inputs = scans_of(options, recipe);
   if (options.recipe) inputs.push_back(*options.recipe);
   if (const auto constants = optical_constants_of(flags, recipe)) inputs.push_back(*constants);
+  if (const auto reflectances = reflectances_of(flags, recipe)) inputs.push_back(*reflectances);
   return inputs;
 }
 

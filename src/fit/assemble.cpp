@@ -44,6 +44,7 @@ class Assembly {
 
  private:
   void add_totals();
+  void add_published_loss();
   void add_shape();
   void add_channel(std::size_t c);
   void add_coefficient(std::size_t c, std::size_t coefficient);
@@ -83,20 +84,47 @@ FitResult Assembly::result() {
 
 void Assembly::add_totals() {
   out_.weight = problem_.weighting;
-  out_.samples = problem_.samples();
-  out_.left_out_90 = problem_.exclusions.at_90;
-  out_.left_out_max_theta = problem_.exclusions.beyond_max_theta;
-  out_.negative_values = problem_.exclusions.negative_values;
-  out_.loss = l_.loss;
-  const auto n = static_cast<double>(problem_.samples());
-  out_.rms = std::sqrt(l_.loss / (n * static_cast<double>(problem_.channels.size())));
-  for (const Eigen::VectorXd& r : l_.residuals)
-    out_.channel_rms.push_back(std::sqrt(r.cwiseQuotient(problem_.weight).squaredNorm() / n));
+  out_.samples = problem_.readings();
+  out_.reflectances = problem_.samples() - problem_.readings();
+  out_.left_out = problem_.exclusions;
+  out_.objective = {.loss = problem_.loss, .value = l_.loss};
+  if (problem_.robust) {
+    out_.objective.robust = problem_.robust->kernel();
+    out_.objective.robust_scale = problem_.robust->scale();
+  }
+  add_published_loss();
   out_.converged = best_.converged;
   summary_.loss = out_.loss;
   summary_.rms = out_.rms;
   summary_.samples = out_.samples;
   summary_.converged = out_.converged;
+}
+
+// Whatever was made least: the loss of the 2005 report, of the readings used.
+void Assembly::add_published_loss() {
+  std::vector<Eigen::VectorXd> all;
+  const bool plain = problem_.quadratic() && std::all_of(problem_.channels.begin(), problem_.channels.end(),
+                                                         [](const auto& c) { return c.emphasis.size() == 0; });
+  if (!plain) all = deviations(problem_, best_.point);
+  for (const Eigen::VectorXd& r : l_.residuals) {
+    if (plain) all.push_back(r.cwiseQuotient(problem_.weight));
+  }
+  double values = 0.0;
+  for (std::size_t c = 0; c < all.size(); ++c) {
+    const Eigen::VectorXd& used = problem_.channels[c].used;
+    double own = 0.0;
+    double squares = 0.0;
+    for (std::size_t i = 0; i < problem_.readings(); ++i) {
+      const auto at = static_cast<Eigen::Index>(i);
+      if (used.size() > 0 && used[at] == 0.0) continue;
+      own += 1.0;
+      squares += all[c][at] * all[c][at];
+      out_.loss += problem_.pairs.cos_i[i] * all[c][at] * all[c][at];
+    }
+    values += own;
+    out_.channel_rms.push_back(std::sqrt(squares / own));
+  }
+  out_.rms = std::sqrt(out_.loss / values);
 }
 
 void Assembly::record(const FittedParameter& p, bool identifiable) {
@@ -207,7 +235,7 @@ void Assembly::leave_out_undetermined() {
   }
   if (m.components.has(Effect::rough) && m.forms.rough == RoughForm::functional) {
     std::size_t cut = 0;
-    for (std::size_t i = 0; i < problem_.samples(); ++i) {
+    for (std::size_t i = 0; i < problem_.readings(); ++i) {
       if (functional_is_cut(radians(*m.surface.facet_slope_deg), problem_.pairs[i])) ++cut;
     }
     if (cut > 0) {
@@ -298,8 +326,8 @@ void Assembly::add_warnings() {
                             "; check the scan's absolute scale and the refractive index, or widen the bound (--bound "
                             "NAME=MIN:MAX)");
   }
-  if (out_.negative_values > 0) {
-    out_.notes.push_back(std::to_string(out_.negative_values) +
+  if (out_.left_out.negative_values > 0) {
+    out_.notes.push_back(std::to_string(out_.left_out.negative_values) +
                          " negative readings were kept: noise around zero, which must not be cut off");
   }
   if (problem_.components.has(Effect::fs) && problem_.weighting == Weight::cosine) {

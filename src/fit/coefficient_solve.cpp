@@ -20,6 +20,16 @@ CoefficientSolver::CoefficientSolver(const Basis& basis)
   }
 }
 
+SmallVector CoefficientSolver::amplitudes(const SmallVector& k) const {
+  SmallVector a(static_cast<Eigen::Index>(unknown_.size()));
+  for (std::size_t j = 0; j < unknown_.size(); ++j) {
+    const bool square = unknown_[j] == coefficients_;
+    const double value = k[square ? squared_ : unknown_[j]];
+    a[static_cast<Eigen::Index>(j)] = square ? value * value : value;
+  }
+  return a;
+}
+
 CoefficientSolver::Solution CoefficientSolver::solve(const SmallMatrix& gram, const SmallVector& rhs,
                                                      const SmallVector& lower, const SmallVector& upper) const {
   Equations e{SmallMatrix::Zero(unknowns_, unknowns_), SmallVector::Zero(unknowns_), SmallVector(unknowns_),

@@ -18,6 +18,8 @@ class CoefficientSolver {
   /// also enters squared (a basis has at most one) is searched over its interval, the others solved inside.
   [[nodiscard]] Solution solve(const SmallMatrix& gram, const SmallVector& rhs, const SmallVector& lower,
                                const SmallVector& upper) const;
+  /// What each column is multiplied by.
+  [[nodiscard]] SmallVector amplitudes(const SmallVector& k) const;
 
  private:
   struct Equations {

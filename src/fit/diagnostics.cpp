@@ -206,20 +206,9 @@ void Diagnosis::add_noise(std::size_t c) {
 // Values that a detector or a program has cut off are alike to the last digit, which measured ones seldom are. Where
 // most of the readings are alike the surface is.
 void Diagnosis::add_counts(std::size_t c) {
-  ChannelDiagnostics& channel = out_.channels[c];
-  std::size_t zero = 0;
-  std::size_t at_maximum = 0;
-  double maximum = rows_.empty() ? 0.0 : value(0, c);
-  for (std::size_t i = 0; i < rows_.size(); ++i) {
-    maximum = std::max(maximum, value(i, c));
-    zero += value(i, c) == 0.0 ? 1 : 0;
-  }
-  for (std::size_t i = 0; i < rows_.size(); ++i) at_maximum += value(i, c) == maximum ? 1 : 0;
-  channel.all_zero = zero == rows_.size();
-  const std::size_t chance = std::max<std::size_t>(4, rows_.size() / 100);
-  if (!channel.all_zero && zero > chance) channel.at_zero = zero;
-  if (maximum > 0.0 && at_maximum > chance && at_maximum <= rows_.size() / 2) channel.at_maximum = at_maximum;
-  channel.maximum = maximum;
+  std::vector<double> values;
+  for (std::size_t i = 0; i < rows_.size(); ++i) values.push_back(value(i, c));
+  out_.channels[c].clipping = clipping_of(values);
 }
 
 void Diagnosis::add_channel(std::size_t c) {

@@ -25,6 +25,7 @@
 #include <vector>
 
 #include "../brdf/material.h"
+#include "../scan/clipping.h"
 #include "../scan/scan.h"
 #include "residual_tests.h"
 #include "settings.h"
@@ -48,10 +49,7 @@ struct ChannelDiagnostics {
   RunsTest runs;    ///< readings in the mirror cone excluded: theirs is coh's, and the instrument's; others as above
   Noise residuals;  ///< their robust spread; misfit included
   double noise_floor = 0.0;  ///< 1/sr: thrice the additive noise of the scan itself; 0 where it cannot be told
-  bool all_zero = false;
-  std::size_t at_zero = 0;     ///< readings of exactly 0, where they are too many for chance
-  std::size_t at_maximum = 0;  ///< readings of exactly the largest value, where they are too many
-  double maximum = 0.0;
+  Clipping clipping;
   /// Median of |ln(f(i,r) / f(r,i))|; none without swapped pairs. A reciprocal model misses one of a pair by at least
   /// half of it.
   std::optional<double> reciprocity;

@@ -15,8 +15,8 @@ namespace goniofit {
 namespace {
 
 FitResult fit_as_asked(const Scan& scan, const FitSettings& settings) {
-  const Problem problem(scan, settings);
-  const Solved solved = solve(problem);
+  Problem problem(scan, settings);
+  const Solved solved = solve(problem, settings);
   FitResult result = assemble(problem, scan, solved.best);
   result.search_evaluations = solved.evaluations;
   result.polish_starts = solved.starts;

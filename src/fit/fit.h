@@ -9,6 +9,7 @@
 #include "../brdf/material.h"
 #include "../scan/scan.h"
 #include "diagnostics.h"
+#include "exclusions.h"
 #include "selection.h"
 #include "settings.h"
 
@@ -31,6 +32,14 @@ struct FittedParameter {
   bool at_lower = false, at_upper = false;
 };
 
+/// What was made least.
+struct Objective {
+  Loss loss = Loss::cosine_l2;
+  RobustKernel robust = RobustKernel::none;
+  double robust_scale = 0.0;  ///< where there is a kernel
+  double value = 0.0;         ///< at the minimum
+};
+
 /// Directional-hemispherical reflectance of the fitted material.
 struct HemisphericalReflectance {
   double theta_i_deg;
@@ -42,11 +51,11 @@ struct FitResult {
   std::vector<FittedParameter> parameters;
   std::vector<HemisphericalReflectance> reflectance;  ///< filled by add_reflectance
   Weight weight = Weight::cosine;
-  std::size_t samples = 0;             ///< directions used (times channels = residuals)
-  std::size_t left_out_90 = 0;         ///< theta of exactly 90 degrees
-  std::size_t left_out_max_theta = 0;  ///< beyond max_theta_deg
-  std::size_t negative_values = 0;
-  double loss = 0.0, rms = 0.0;
+  std::size_t samples = 0;       ///< directions used (times channels = residuals)
+  std::size_t reflectances = 0;  ///< directional-hemispherical ones fitted beside them
+  Exclusions left_out;
+  double loss = 0.0, rms = 0.0;  ///< whatever was made least, sum of cos(theta_i) |difference|² over the values used
+  Objective objective;
   std::vector<double> channel_rms;     ///< unweighted RMS of the difference, 1/sr, per channel
   std::size_t search_evaluations = 0;  ///< points of the global search
   std::size_t polish_iterations = 0, polish_starts = 0;

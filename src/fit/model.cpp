@@ -19,8 +19,10 @@ std::vector<double*> column_pointers(Eigen::MatrixXd& m) {
 }  // namespace
 
 Model::Model(const Problem& problem)
-    : problem_(problem), parameters_(static_cast<Eigen::Index>(problem.basis->shape_parameters().size())) {
-  for (std::size_t i = 0; i < problem.samples(); ++i) {
+    : problem_(problem),
+      states_(problem.channels.size()),
+      parameters_(static_cast<Eigen::Index>(problem.basis->shape_parameters().size())) {
+  for (std::size_t i = 0; i < problem.pairs.size(); ++i) {
     if (problem.basis->reads_length(problem.pairs[i])) late_rows_.push_back(i);
   }
   late_ = problem.pairs.subset(late_rows_);
@@ -45,7 +47,7 @@ std::size_t Model::factors_for(double wavelength_um) {
   for (std::size_t f = 0; f < factors_.size(); ++f) {
     if (factors_[f].wavelength_um == wavelength_um) return f;
   }
-  const auto n = static_cast<Eigen::Index>(problem_.samples());
+  const auto n = static_cast<Eigen::Index>(problem_.pairs.size());
   const auto columns = static_cast<Eigen::Index>(problem_.basis->columns().size());
   factors_.push_back({wavelength_um, Eigen::MatrixXd(n, columns), Eigen::MatrixXd::Zero(n, columns * parameters_)});
   return factors_.size() - 1;
@@ -53,7 +55,8 @@ std::size_t Model::factors_for(double wavelength_um) {
 
 void Model::fill_optics(std::size_t channel, Group& group) const {
   const std::vector<BasisColumn>& columns = problem_.basis->columns();
-  const auto n = static_cast<Eigen::Index>(problem_.samples());
+  const Eigen::VectorXd& weight = problem_.point_weight;
+  const Eigen::Index n = weight.size();
   const bool fixed = problem_.free_optics == FreeOptics::none;
   group.optics.resize(n, static_cast<Eigen::Index>(columns.size()));
   if (!fixed) group.optics_derivatives.resize(n, static_cast<Eigen::Index>(columns.size()));
@@ -63,12 +66,12 @@ void Model::fill_optics(std::size_t channel, Group& group) const {
     for (Eigen::Index i = 0; i < n; ++i) {
       const Pair p = problem_.pairs[static_cast<std::size_t>(i)];
       if (fixed) {
-        group.optics(i, column) = problem_.weight[i] * optics_factor(columns[j].optics, problem_.terms.fresnel,
-                                                                     problem_.channels[channel].optics, p);
+        group.optics(i, column) =
+            weight[i] * optics_factor(columns[j].optics, problem_.terms.fresnel, problem_.channels[channel].optics, p);
       } else {
         const Dual factor = optics_factor(columns[j].optics, problem_.terms.fresnel, dual, p);
-        group.optics(i, column) = problem_.weight[i] * factor.a;
-        group.optics_derivatives(i, column) = problem_.weight[i] * factor.v[0];
+        group.optics(i, column) = weight[i] * factor.a;
+        group.optics_derivatives(i, column) = weight[i] * factor.v[0];
       }
     }
   }
@@ -87,6 +90,8 @@ void Model::multiply_out(Group& group, bool derivatives) const {
       multiply(optics, f.derivatives.col(parameter).data(), group.shape_products.col(parameter).data(), n);
     }
   }
+  problem_.sums.apply(group.products);
+  if (derivatives) problem_.sums.apply(group.shape_products);
 }
 
 void Model::shape_factors(const Eigen::VectorXd& shape, const PairBatch& pairs, double wavelength_um, bool derivatives,
@@ -140,18 +145,53 @@ double Model::amplitude(Eigen::Index column, const SmallVector& k) const noexcep
 }
 
 void Model::emphasise(std::size_t channel, Eigen::Ref<Eigen::VectorXd> out) const {
-  const Eigen::VectorXd& emphasis = problem_.channels[channel].emphasis;
-  if (emphasis.size() > 0) multiply(emphasis.data(), out.data(), out.data(), problem_.samples());
+  const Eigen::VectorXd& slope = states_[channel].slope;
+  const Eigen::VectorXd& factor = slope.size() > 0 ? slope : problem_.channels[channel].emphasis;
+  if (factor.size() > 0) multiply(factor.data(), out.data(), out.data(), problem_.samples());
 }
 
-void Model::residuals(std::size_t channel, const SmallVector& k, Eigen::VectorXd& out) const {
+void Model::add_columns(std::size_t channel, const SmallVector& k, Eigen::VectorXd& out) const {
   const Eigen::MatrixXd& products = groups_[group_[channel]].products;
-  out = -problem_.channels[channel].target;
   for (Eigen::Index j = 0; j < products.cols(); ++j) {
     const double a = amplitude(j, k);
     if (a != 0.0) add_scaled(a, products.col(j).data(), out.data(), problem_.samples());
   }
+}
+
+void Model::weighted_values(std::size_t channel, const SmallVector& k, Eigen::VectorXd& out) const {
+  out = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem_.samples()));
+  add_columns(channel, k, out);
+}
+
+double Model::residuals(std::size_t channel, const SmallVector& k, Eigen::VectorXd& out) {
+  if (!problem_.quadratic()) {
+    weighted_values(channel, k, out);
+    return bend(channel, out);
+  }
+  out = -problem_.channels[channel].target;
+  add_columns(channel, k, out);
   emphasise(channel, out);
+  return out.squaredNorm();
+}
+
+// From weight * model to residuals, their slopes and the loss.
+double Model::bend(std::size_t channel, Eigen::VectorXd& out) {
+  const ProblemChannel& c = problem_.channels[channel];
+  ChannelState& state = states_[channel];
+  state.slope.resize(out.size());
+  double loss = 0.0;
+  double slopes = 0.0;
+  double curvatures = 0.0;
+  for (Eigen::Index i = 0; i < out.size(); ++i) {
+    const BentResidual r = bent_residual(problem_, c, i, out[i] / problem_.weight[i]);
+    out[i] = r.residual;
+    state.slope[i] = r.slope / problem_.weight[i];
+    loss += r.loss;
+    slopes += r.kernel.slope;
+    curvatures += r.kernel.curvature;
+  }
+  state.kernel_share = slopes > 0.0 ? curvatures / slopes : 1.0;
+  return loss;
 }
 
 void Model::by_shape(std::size_t channel, const SmallVector& k, int i, Eigen::Ref<Eigen::VectorXd> out) const {
@@ -186,10 +226,12 @@ void Model::by_coefficient(std::size_t channel, const SmallVector& k, std::size_
 void Model::by_optics(std::size_t channel, const SmallVector& k, Eigen::Ref<Eigen::VectorXd> out) const {
   const Group& group = groups_[group_[channel]];
   const Eigen::MatrixXd& shape = factors_[group.factors].values;
-  out.setZero();
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(shape.rows());
   for (Eigen::Index j = 0; j < shape.cols(); ++j) {
-    out.noalias() += amplitude(j, k) * group.optics_derivatives.col(j).cwiseProduct(shape.col(j));
+    sum.noalias() += amplitude(j, k) * group.optics_derivatives.col(j).cwiseProduct(shape.col(j));
   }
+  problem_.sums.apply(sum);
+  out = sum;
   emphasise(channel, out);
 }
 
@@ -197,12 +239,13 @@ Linearisation linearise(const Problem& problem, const FitPoint& point) {
   Model model(problem);
   model.set_shape(point.z.data(), true);
   Linearisation l;
+  double share = 0.0;
   const auto n = static_cast<Eigen::Index>(problem.samples());
   for (std::size_t c = 0; c < problem.channels.size(); ++c) {
     const SmallVector& k = point.coefficients[c];
     if (!point.optics.empty()) model.set_optics(c, point.optics[c]);
-    model.residuals(c, k, l.residuals.emplace_back());
-    l.loss += l.residuals.back().squaredNorm();
+    l.loss += model.residuals(c, k, l.residuals.emplace_back());
+    share += model.kernel_share(c) / static_cast<double>(problem.channels.size());
     Eigen::MatrixXd& shape = l.by_shape.emplace_back(n, problem.shape.free);
     for (int z = 0; z < problem.shape.free; ++z) model.by_shape(c, k, z, shape.col(z));
     Eigen::MatrixXd& coefficients = l.by_coefficient.emplace_back(n, k.size());
@@ -214,7 +257,20 @@ Linearisation linearise(const Problem& problem, const FitPoint& point) {
     by_optics.resize(n);
     model.by_optics(c, k, by_optics);
   }
+  l.kernel_share = share;
   return l;
+}
+
+std::vector<Eigen::VectorXd> deviations(const Problem& problem, const FitPoint& point) {
+  Model model(problem);
+  model.set_shape(point.z.data(), false);
+  std::vector<Eigen::VectorXd> out;
+  for (std::size_t c = 0; c < problem.channels.size(); ++c) {
+    if (!point.optics.empty()) model.set_optics(c, point.optics[c]);
+    model.weighted_values(c, point.coefficients[c], out.emplace_back());
+    out.back() = out.back().cwiseQuotient(problem.weight) - problem.channels[c].value;
+  }
+  return out;
 }
 
 }  // namespace goniofit

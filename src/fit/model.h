@@ -21,8 +21,17 @@ class Model {
   /// Sets the free optical parameter of a channel; needed before the channel is read where the problem leaves it free.
   void set_optics(std::size_t channel, double value);
 
-  /// weight * (model - value), one a reading.
-  void residuals(std::size_t channel, const SmallVector& k, Eigen::VectorXd& out) const;
+  /// Fills `out` with one residual a row of the problem, weight * emphasis * (g(model) - g(value)), and returns their
+  /// loss: the sum of their squares, or of rho of these. Under a robust kernel each residual comes multiplied by
+  /// sqrt(rho'), and so do the derivatives: their products then are the gradient of the loss, and their squares its
+  /// Hessian as iteratively reweighted least squares take it; the squares of the residuals sum to no more than the
+  /// loss, which is concave in them. The derivatives that follow are those at the k of the last call.
+  double residuals(std::size_t channel, const SmallVector& k, Eigen::VectorXd& out);
+  /// weight * model, one a row.
+  void weighted_values(std::size_t channel, const SmallVector& k, Eigen::VectorXd& out) const;
+  /// Sum of the second derivatives of the kernel over that of its slopes, by which reweighting overstates what the
+  /// readings say; 1 without a kernel. Of the last call.
+  [[nodiscard]] double kernel_share(std::size_t channel) const { return states_[channel].kernel_share; }
   /// d residual / d z[i]; needs set_shape(.., true).
   void by_shape(std::size_t channel, const SmallVector& k, int i, Eigen::Ref<Eigen::VectorXd> out) const;
   /// d residual / d coefficient.
@@ -49,14 +58,24 @@ class Model {
   };
   /// What a column is multiplied by: its coefficient, or the square of it.
   [[nodiscard]] double amplitude(Eigen::Index column, const SmallVector& k) const noexcept;
+  /// out *= d residual / d (weight * model).
   void emphasise(std::size_t channel, Eigen::Ref<Eigen::VectorXd> out) const;
+  double bend(std::size_t channel, Eigen::VectorXd& out);
+  void add_columns(std::size_t channel, const SmallVector& k, Eigen::VectorXd& out) const;
   void shape_factors(const Eigen::VectorXd& shape, const PairBatch& pairs, double wavelength_um, bool derivatives,
                      Eigen::MatrixXd& values, Eigen::MatrixXd& by_shape) const;
   std::size_t factors_for(double wavelength_um);
   void fill_optics(std::size_t channel, Group& group) const;
   void multiply_out(Group& group, bool derivatives) const;
 
+  /// Of a channel, at the coefficients of the last call of residuals().
+  struct ChannelState {
+    Eigen::VectorXd slope;  ///< d residual / d (weight * model); empty where the emphasis is all of it
+    double kernel_share = 1.0;
+  };
+
   const Problem& problem_;
+  std::vector<ChannelState> states_;
   Eigen::Index parameters_;
   std::vector<std::size_t> late_rows_;  ///< whose factors read the wavelength; of another wavelength only they differ
   PairBatch late_;
@@ -73,7 +92,11 @@ struct Linearisation {
   std::vector<Eigen::MatrixXd> by_coefficient;  ///< samples x coefficients
   std::vector<Eigen::VectorXd> by_optics;       ///< empty where fixed
   double loss = 0.0;
+  double kernel_share = 1.0;  ///< Model::kernel_share over all channels
 };
 [[nodiscard]] Linearisation linearise(const Problem& problem, const FitPoint& point);
+
+/// model - value, 1/sr, one a row, for each channel.
+[[nodiscard]] std::vector<Eigen::VectorXd> deviations(const Problem& problem, const FitPoint& point);
 
 }  // namespace goniofit

@@ -106,4 +106,11 @@ void check_parameter_names(const FitSettings& settings, const std::vector<std::s
   }
 }
 
+void check_range(double value, double lower, double upper, const std::string& name) {
+  if (value >= lower && value <= upper) return;
+  std::ostringstream text;
+  text << name << ": " << value << " is out of range, expected " << lower << " to " << upper;
+  throw usage_error(text.str());
+}
+
 }  // namespace goniofit

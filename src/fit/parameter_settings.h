@@ -18,6 +18,9 @@ namespace goniofit {
 [[nodiscard]] std::pair<double, double> interval_of(const ParameterSetting& setting, const std::string& name,
                                                     double lower, double upper);
 
+/// Throws Error (bad_input) naming the setting where the value lies outside.
+void check_range(double value, double lower, double upper, const std::string& name);
+
 /// Throws Error (bad_input) for a name that is no parameter of the model or a channel that the scan does not have.
 void check_parameter_names(const FitSettings& settings, const std::vector<std::string>& channels);
 

@@ -95,6 +95,7 @@ class ChannelCost final : public ceres::CostFunction {
  public:
   ChannelCost(Model& model, const Problem& problem, const State& state, std::size_t channel)
       : model_(model),
+        problem_(problem),
         free_shape_(static_cast<int>(state.moving.size())),
         state_(state),
         channel_(channel),
@@ -115,15 +116,17 @@ class ChannelCost final : public ceres::CostFunction {
     }
     if (!layout().optics && !state_.point.optics.empty()) model_.set_optics(channel_, state_.point.optics[channel_]);
     Eigen::VectorXd r;
-    model_.residuals(channel_, k, r);
+    const double loss = model_.residuals(channel_, k, r);
     Eigen::Map<Eigen::VectorXd> compressed(residuals, width_ + 1);
     if (jacobians == nullptr) {
       compressed.setZero();
-      compressed[width_] = r.norm();
+      compressed[width_] = std::sqrt(loss);
       return true;
     }
     const Eigen::MatrixXd triangle = compress(jacobian(k), r);
     compressed = triangle.col(width_);
+    // What a robust kernel's loss exceeds the squares by depends on no step: the row that no parameter moves has it.
+    if (problem_.robust) compressed[width_] = std::sqrt(std::max(0.0, loss - compressed.head(width_).squaredNorm()));
     copy_columns(triangle, 0, free_shape_, free_shape_ > 0 ? jacobians[0] : nullptr);
     copy_columns(triangle, free_shape_, width_ - free_shape_,
                  layout().size() > 0 ? jacobians[free_shape_ > 0 ? 1 : 0] : nullptr);
@@ -168,6 +171,7 @@ class ChannelCost final : public ceres::CostFunction {
   }
 
   Model& model_;
+  const Problem& problem_;
   int free_shape_;
   const State& state_;
   std::size_t channel_;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 
 #include "fit/parameter_settings.h"
 #include "fit/surface_basis.h"
@@ -30,13 +29,6 @@ std::optional<double> per_channel(const std::vector<double>& values, std::size_t
 
 bool same(const ChannelOptics& a, const ChannelOptics& b) { return a.n == b.n && a.kappa == b.kappa && a.f0 == b.f0; }
 
-void check_range(double value, double lower, double upper, const std::string& name) {
-  if (value >= lower && value <= upper) return;
-  std::ostringstream text;
-  text << name << ": " << value << " is out of range, expected " << lower << " to " << upper;
-  throw usage_error(text.str());
-}
-
 }  // namespace
 
 Eigen::VectorXd ShapeMap::at(const double* z) const {
@@ -57,6 +49,7 @@ Problem::Problem(const Scan& scan, const FitSettings& settings)
   for (const ScanChannel& c : scan.channels) names.push_back(c.name);
   check_parameter_names(settings, names);
   check_range(solid_angle_sr, 1e-12, 2.0 * pi, "solid angle");
+  loss = settings.loss;
   choose_rows(scan, settings);
   choose_optics(scan, settings);
   if (model == surface_model) {
@@ -67,7 +60,10 @@ Problem::Problem(const Scan& scan, const FitSettings& settings)
   choose_basis();
   choose_shape(settings);
   choose_coefficients(settings);
-  fill_targets(scan);
+  add_reflectances(settings);
+  choose_weights(scan, settings);
+  fill_values(scan, settings);
+  fill_targets();
 }
 
 Problem::Problem(std::unique_ptr<const Basis> own_basis, Readings readings, const FitSettings& settings)
@@ -87,14 +83,18 @@ Problem::Problem(std::unique_ptr<const Basis> own_basis, Readings readings, cons
   if (weight.size() != n || !(weight.minCoeff() > 0.0))
     throw usage_error("readings: expected a weight above zero for each of the " + std::to_string(n));
   for (std::size_t row = 0; row < pairs.size(); ++row) rows.push_back(row);
+  sums = RowSums(rows.size());
+  theta_i_deg.assign(rows.size(), 0.0);
+  point_weight = weight;
   choose_shape(settings);
   choose_coefficients(settings);
   for (std::size_t c = 0; c < channels.size(); ++c) {
     if (readings.values[c].size() != n)
       throw usage_error("readings: " + std::to_string(readings.values[c].size()) + " values in channel " +
                         std::to_string(c + 1) + ", expected one for each of the " + std::to_string(n) + " pairs");
-    add_target(channels[c], std::move(readings.values[c]));
+    channels[c].value = std::move(readings.values[c]);
   }
+  fill_targets();
 }
 
 std::optional<std::size_t> Problem::shape_index(const std::string& name) const {
@@ -102,14 +102,6 @@ std::optional<std::size_t> Problem::shape_index(const std::string& name) const {
   const auto at = std::find_if(all.begin(), all.end(), [&](const ShapeParameter& p) { return p.name == name; });
   if (at == all.end()) return std::nullopt;
   return static_cast<std::size_t>(at - all.begin());
-}
-
-void Problem::emphasise(std::vector<Eigen::VectorXd> emphasis) {
-  total = 0.0;
-  for (std::size_t c = 0; c < channels.size(); ++c) {
-    channels[c].emphasis = std::move(emphasis[c]);
-    total += channels[c].target.cwiseProduct(channels[c].emphasis).squaredNorm();
-  }
 }
 
 void Problem::choose_basis() {
@@ -124,27 +116,6 @@ void Problem::choose_basis() {
     const bool wave = ShapeSettings::of(terms, forms, anisotropic).wave_optics();
     throw usage_error(std::string(wave ? "distribution he-torrance" : "coh") + " needs the wavelength of channel " +
                       c.name + ", expected `# wavelength_um: ...` in the scan or a channel named like 550nm");
-  }
-}
-
-void Problem::choose_rows(const Scan& scan, const FitSettings& settings) {
-  check_range(settings.max_theta_deg, 0.0, 90.0, "max-theta");
-  for (std::size_t row = 0; row < scan.size(); ++row) {
-    const AnglePair a = scan.angles(row);
-    const double theta = std::max(a.theta_i_deg, a.theta_r_deg);
-    if (theta >= 90.0) {
-      ++exclusions.at_90;
-    } else if (theta > settings.max_theta_deg) {
-      ++exclusions.beyond_max_theta;
-    } else {
-      rows.push_back(row);
-      pairs.push_back(make_pair(a));
-    }
-  }
-  if (rows.empty()) {
-    throw usage_error(scan.source + ": no reading is left to fit: " + std::to_string(exclusions.at_90) +
-                      " at 90 degrees, " + std::to_string(exclusions.beyond_max_theta) +
-                      " beyond the largest theta asked for");
   }
 }
 
@@ -316,28 +287,6 @@ void Problem::choose_coefficients(const FitSettings& settings) {
       channel.upper[j] = setting.max || setting.value ? high : std::min(high, k.upper);
     }
   }
-}
-
-void Problem::fill_targets(const Scan& scan) {
-  const auto n = static_cast<Eigen::Index>(rows.size());
-  weight.resize(n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    weight[i] = weighting == Weight::cosine ? std::sqrt(pairs.cos_i[static_cast<std::size_t>(i)]) : 1.0;
-  }
-  for (std::size_t c = 0; c < channels.size(); ++c) {
-    Eigen::VectorXd values(n);
-    for (Eigen::Index i = 0; i < n; ++i) values[i] = scan.channels[c].values[rows[static_cast<std::size_t>(i)]];
-    exclusions.negative_values += static_cast<std::size_t>((values.array() < 0.0).count());
-    add_target(channels[c], std::move(values));
-    if (scan.channels[c].u.empty()) continue;
-    channels[c].u.resize(n);
-    for (Eigen::Index i = 0; i < n; ++i) channels[c].u[i] = scan.channels[c].u[rows[static_cast<std::size_t>(i)]];
-  }
-}
-
-void Problem::add_target(ProblemChannel& channel, Eigen::VectorXd values) {
-  channel.target = weight.cwiseProduct(values);
-  total += channel.target.squaredNorm();
 }
 
 }  // namespace goniofit

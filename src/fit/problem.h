@@ -13,15 +13,31 @@
 #include "../basis/optics.h"
 #include "../scan/scan.h"
 #include "bounded_least_squares.h"
+#include "exclusions.h"
+#include "loss.h"
 #include "settings.h"
 
 namespace goniofit {
 
-/// Readings left out, and why.
-struct Exclusions {
-  std::size_t at_90 = 0;  ///< theta of exactly 90 degrees
-  std::size_t beyond_max_theta = 0;
-  std::size_t negative_values = 0;  ///< kept; counted over the readings used
+/// Residuals that are sums over points of evaluation follow those that are a point each.
+class RowSums {
+ public:
+  explicit RowSums(std::size_t single = 0) : single_(single) {}
+  void add(std::size_t points) { ends_.push_back((ends_.empty() ? single_ : ends_.back()) + points); }
+  [[nodiscard]] std::size_t rows() const noexcept { return single_ + ends_.size(); }
+  [[nodiscard]] bool none() const noexcept { return ends_.empty(); }
+  /// Of one row.
+  [[nodiscard]] std::size_t points(std::size_t row) const noexcept {
+    if (row < single_) return 1;
+    return ends_[row - single_] - (row == single_ ? single_ : ends_[row - single_ - 1]);
+  }
+  /// A row a point becomes a row a residual.
+  void apply(Eigen::MatrixXd& m) const;
+  void apply(Eigen::VectorXd& v) const;
+
+ private:
+  std::size_t single_;
+  std::vector<std::size_t> ends_;
 };
 
 /// What is left free of the shape parameters: z_all = offset + map * z, z_all as in ShapeParameter.
@@ -41,12 +57,13 @@ struct ProblemChannel {
   std::optional<double> wavelength_um;
   ChannelOptics optics{};          ///< where fixed; the start where free
   std::optional<double> n, kappa;  ///< as given; empty where f0 was
-  Eigen::VectorXd target;          ///< weight * value, one a reading used
-  Eigen::VectorXd u;               ///< standard uncertainty of the values, 1/sr; empty where the scan states none
-  /// A factor of each residual beside the weight that all channels share; empty for 1. A polish reads it, a search does
-  /// not.
-  Eigen::VectorXd emphasis;
-  SmallVector lower, upper;                       ///< bounds of the coefficients; equal where fixed
+  // One a residual: first the readings used, then the reflectances over pi.
+  Eigen::VectorXd value;     ///< 1/sr
+  Eigen::VectorXd target;    ///< weight * value
+  Eigen::VectorXd u;         ///< standard uncertainty of the values, 1/sr; empty where not all of them have one
+  Eigen::VectorXd used;      ///< 0 where the value is left out, else 1; empty where all are used
+  Eigen::VectorXd emphasis;  ///< a factor of each residual beside the weight that all channels share; empty for 1
+  SmallVector lower, upper;  ///< bounds of the coefficients; equal where fixed
   double optics_lower = 0.0, optics_upper = 0.0;  ///< of the free optical parameter
   std::size_t optics_group = 0;                   ///< channels of equal optics share their columns
 };
@@ -69,12 +86,22 @@ class Problem {
 
   /// Index of a shape parameter by name; nullopt where the model does not read it.
   [[nodiscard]] std::optional<std::size_t> shape_index(const std::string& name) const;
-  [[nodiscard]] std::size_t samples() const noexcept { return pairs.size(); }
+  /// Residuals of a channel.
+  [[nodiscard]] std::size_t samples() const noexcept { return sums.rows(); }
+  /// Those that are readings of the BRDF; the others are reflectances.
+  [[nodiscard]] std::size_t readings() const noexcept { return rows.size(); }
+  /// Values that the fit reads, over all channels.
+  [[nodiscard]] std::size_t values_used() const noexcept;
   [[nodiscard]] double wavelength(std::size_t channel) const noexcept {
     return channels[channel].wavelength_um.value_or(1.0);
   }
-  /// Gives every channel its emphasis, and the problem the total that goes with it.
+  /// Gives every channel its emphasis in place of what the loss gave it, and the problem the total that goes with it:
+  /// squares of weighted differences. Values left out stay so.
   void emphasise(std::vector<Eigen::VectorXd> emphasis);
+  /// From now on the loss is that of a robust kernel.
+  void make_robust(const RobustLoss& by) { robust = by; }
+  /// Whether the coefficients' normal equations alone do not give the least loss.
+  [[nodiscard]] bool quadratic() const noexcept { return !is_transformed(loss) && !robust; }
   /// Optics with the free parameter at `value`; T is double or a dual number.
   template <class T>
   [[nodiscard]] BasicOptics<T> optics_at(std::size_t channel, const T& value) const {
@@ -90,13 +117,18 @@ class Problem {
   double solid_angle_sr;
   FreeOptics free_optics;
   Weight weighting;
+  Loss loss = Loss::cosine_l2;
+  std::optional<RobustLoss> robust;
   std::unique_ptr<const Basis> basis;  ///< the model, of which a fit knows no more than its columns
   ShapeMap shape;
   std::optional<double> known_sigma_um, known_tau_um;  ///< fixed by the user
 
-  PairBatch pairs;
-  std::vector<std::size_t> rows;  ///< of the scan, one a pair
-  Eigen::VectorXd weight;         ///< square root of each reading's weight in the loss
+  PairBatch pairs;                ///< points of evaluation: the readings, then the nodes of the reflectances
+  std::vector<std::size_t> rows;  ///< of the scan, one a reading
+  RowSums sums;
+  Eigen::VectorXd weight;           ///< square root of each residual's weight in the loss
+  Eigen::VectorXd point_weight;     ///< the same by point; a node's includes its part of the sum, over pi
+  std::vector<double> theta_i_deg;  ///< one a residual
   std::vector<ProblemChannel> channels;
   std::size_t optics_groups = 0;
   double total = 0.0;  ///< loss of a model that is zero
@@ -106,6 +138,10 @@ class Problem {
 
  private:
   void choose_rows(const Scan& scan, const FitSettings& settings);
+  void add_reflectances(const FitSettings& settings);
+  void choose_weights(const Scan& scan, const FitSettings& settings);
+  void leave_out_values(const ExclusionSettings& exclude);
+  void choose_emphasis();
   void choose_optics(const Scan& scan, const FitSettings& settings);
   void choose_components(const FitSettings& settings);
   void choose_basis();
@@ -116,8 +152,18 @@ class Problem {
   void add_free(std::size_t parameter, double low, double high);
   void fix(std::size_t parameter, double value);
   void choose_coefficients(const FitSettings& settings);
-  void fill_targets(const Scan& scan);
-  void add_target(ProblemChannel& channel, Eigen::VectorXd values);
+  void fill_values(const Scan& scan, const FitSettings& settings);
+  void fill_targets();
 };
+
+/// The residual of a row of which the model says f, under a loss that is not quadratic: see Model::residuals.
+struct BentResidual {
+  double residual;  ///< weight * emphasis * (g(f) - g(value)), times sqrt(rho')
+  double slope;     ///< its derivative by f
+  double loss;
+  RobustLoss::Value kernel;
+};
+[[nodiscard]] BentResidual bent_residual(const Problem& problem, const ProblemChannel& channel, Eigen::Index row,
+                                         double f);
 
 }  // namespace goniofit

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "fit/coefficient_refine.h"
 #include "fit/dot.h"
 
 namespace goniofit {
@@ -31,13 +32,6 @@ std::vector<double> optics_grid(FreeOptics which, double lower, double upper) {
   return grid;
 }
 
-void select_rows(const Eigen::VectorXd& from, const std::vector<std::size_t>& rows, Eigen::VectorXd& to) {
-  to.resize(static_cast<Eigen::Index>(rows.size()));
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    to[static_cast<Eigen::Index>(i)] = from[static_cast<Eigen::Index>(rows[i])];
-  }
-}
-
 // gram and rhs += those of the columns of `a` against the targets.
 void accumulate(const Eigen::MatrixXd& a, const Eigen::VectorXd& target, SmallMatrix* gram,
                 Eigen::Ref<Eigen::VectorXd> rhs) {
@@ -56,31 +50,73 @@ void accumulate(const Eigen::MatrixXd& a, const Eigen::VectorXd& target, SmallMa
 }  // namespace
 
 Profile::Profile(const Problem& problem)
-    : problem_(problem), columns_(problem.basis->columns().size()), solver_(*problem.basis) {
-  std::vector<std::size_t> early;
-  std::vector<std::size_t> late;
-  for (std::size_t i = 0; i < problem.samples(); ++i) {
-    (problem.basis->reads_length(problem.pairs[i]) ? late : early).push_back(i);
-  }
-  early_ = problem.pairs.subset(early);
-  late_ = problem.pairs.subset(late);
-  select_rows(problem.weight, early, early_weight_);
-  select_rows(problem.weight, late, late_weight_);
-  for (const ProblemChannel& c : problem.channels) {
-    select_rows(c.target, early, early_target_.emplace_back());
-    select_rows(c.target, late, late_target_.emplace_back());
-    target2_.push_back(c.target.squaredNorm());
+    : problem_(problem),
+      columns_(problem.basis->columns().size()),
+      solver_(*problem.basis),
+      emphasised_(is_transformed(problem.loss)) {
+  for (const ProblemChannel& c : problem.channels) emphasised_ = emphasised_ || c.emphasis.size() > 0;
+  divide();
+  for (std::size_t c = 0; c < problem.channels.size(); ++c) {
+    target2_.push_back(early_.target[c].squaredNorm() + late_.target[c].squaredNorm());
   }
   for (std::size_t g = 0; g < problem.optics_groups; ++g) add_group(g);
-  early_shape_.resize(early_weight_.size(), static_cast<Eigen::Index>(columns_));
-  product_.resize(early_weight_.size(), static_cast<Eigen::Index>(columns_));
+  early_shape_.resize(early_.point_weight.size(), static_cast<Eigen::Index>(columns_));
 }
 
-Eigen::MatrixXd Profile::weighted_optics(const ChannelOptics& optics, const PairBatch& pairs,
-                                         const Eigen::VectorXd& weight) const {
+void Profile::divide() {
+  const bool all_late = !problem_.quadratic();
+  std::vector<std::size_t> early_points;
+  std::vector<std::size_t> late_points;
+  std::size_t point = 0;
+  for (std::size_t row = 0; row < problem_.samples(); ++row) {
+    // A sum of points is divided no further.
+    const bool late = all_late || (problem_.basis->has_length() &&
+                                   (row >= problem_.readings() || problem_.basis->reads_length(problem_.pairs[row])));
+    take(row, point, late ? late_ : early_, late ? late_points : early_points);
+    point += problem_.sums.points(row);
+  }
+  early_.pairs = problem_.pairs.subset(early_points);
+  late_.pairs = problem_.pairs.subset(late_points);
+  for (Part* const part : {&early_, &late_}) {
+    const std::vector<std::size_t>& points = part == &early_ ? early_points : late_points;
+    part->point_weight = problem_.point_weight(std::vector<Eigen::Index>(points.begin(), points.end()));
+    fill(*part);
+  }
+}
+
+void Profile::take(std::size_t row, std::size_t first_point, Part& part, std::vector<std::size_t>& points) const {
+  if (row < problem_.readings()) {
+    part.sums = RowSums(part.rows.size() + 1);
+  } else {
+    part.sums.add(problem_.sums.points(row));
+  }
+  part.rows.push_back(row);
+  for (std::size_t i = 0; i < problem_.sums.points(row); ++i) points.push_back(first_point + i);
+}
+
+// Targets, and what they and the columns are multiplied by. Of a loss that bends f these are tangents at the readings:
+// a start, from which the coefficients are refined.
+void Profile::fill(Part& part) const {
+  for (const ProblemChannel& c : problem_.channels) {
+    Eigen::VectorXd& target = part.target.emplace_back(static_cast<Eigen::Index>(part.rows.size()));
+    Eigen::VectorXd& emphasis = part.emphasis.emplace_back();
+    if (emphasised_) emphasis.resize(target.size());
+    for (std::size_t i = 0; i < part.rows.size(); ++i) {
+      const auto to = static_cast<Eigen::Index>(i);
+      const auto from = static_cast<Eigen::Index>(part.rows[i]);
+      target[to] = c.target[from];
+      if (!emphasised_) continue;
+      emphasis[to] = (c.emphasis.size() > 0 ? c.emphasis[from] : 1.0) * transformed(problem_.loss, c.value[from]).slope;
+      target[to] *= emphasis[to];
+    }
+  }
+}
+
+Eigen::MatrixXd Profile::weighted_optics(const ChannelOptics& optics, const Part& part) const {
+  const Eigen::VectorXd& weight = part.point_weight;
   Eigen::MatrixXd result(weight.size(), static_cast<Eigen::Index>(columns_));
   for (Eigen::Index i = 0; i < weight.size(); ++i) {
-    const Pair p = pairs[static_cast<std::size_t>(i)];
+    const Pair p = part.pairs[static_cast<std::size_t>(i)];
     const double f = fresnel(problem_.terms.fresnel, optics, p);
     const double t = transmission(problem_.terms.fresnel, optics, p);
     for (std::size_t j = 0; j < columns_; ++j) {
@@ -93,6 +129,17 @@ Eigen::MatrixXd Profile::weighted_optics(const ChannelOptics& optics, const Pair
     }
   }
   return result;
+}
+
+// gram and rhs += those of one channel; `columns` by row.
+void Profile::add_equations(const Part& part, std::size_t channel, const Eigen::MatrixXd& columns, SmallMatrix* gram,
+                            Eigen::Ref<Eigen::VectorXd> rhs) const {
+  if (!emphasised_) return accumulate(columns, part.target[channel], gram, rhs);
+  Eigen::MatrixXd own(columns.rows(), columns.cols());
+  for (Eigen::Index j = 0; j < columns.cols(); ++j) {
+    multiply(columns.col(j).data(), part.emphasis[channel].data(), own.col(j).data(), part.rows.size());
+  }
+  accumulate(own, part.target[channel], gram, rhs);
 }
 
 void Profile::add_group(std::size_t index) {
@@ -108,8 +155,8 @@ void Profile::add_group(std::size_t index) {
     const ChannelOptics optics = fixed ? first.optics : problem_.optics_at(group.channels.front(), value);
     Candidate candidate;
     candidate.value = value;
-    candidate.early = weighted_optics(optics, early_, early_weight_);
-    candidate.late = weighted_optics(optics, late_, late_weight_);
+    candidate.early = weighted_optics(optics, early_);
+    candidate.late = weighted_optics(optics, late_);
     group.candidates.push_back(std::move(candidate));
   }
   groups_.push_back(std::move(group));
@@ -120,21 +167,22 @@ void Profile::update_early(const Eigen::VectorXd& shape) {
   if (early_at_.size() == read + 1 && early_at_.head(read) == shape.head(read)) return;
   early_at_.resize(read + 1);  // one more, so that an empty one is none yet
   early_at_.head(read) = shape.head(read);
-  if (early_weight_.size() == 0) return reset_early_equations();
+  reset_early_equations();
+  if (early_.rows.empty()) return;
   const std::vector<double*> pointers = column_pointers(early_shape_);
-  problem_.basis->shape_factors(early_, std::span(shape.data(), static_cast<std::size_t>(shape.size())), 1.0, pointers);
-  const auto n = static_cast<std::size_t>(early_weight_.size());
-  const auto columns = static_cast<Eigen::Index>(columns_);
+  problem_.basis->shape_factors(early_.pairs, std::span(shape.data(), static_cast<std::size_t>(shape.size())), 1.0,
+                                pointers);
+  const auto n = static_cast<std::size_t>(early_.point_weight.size());
   for (Group& group : groups_) {
     for (Candidate& candidate : group.candidates) {
-      for (Eigen::Index j = 0; j < columns; ++j) {
+      product_.resize(early_.point_weight.size(), static_cast<Eigen::Index>(columns_));
+      for (Eigen::Index j = 0; j < product_.cols(); ++j) {
         multiply(candidate.early.col(j).data(), early_shape_.col(j).data(), product_.col(j).data(), n);
       }
-      candidate.gram = SmallMatrix::Zero(columns, columns);
-      candidate.rhs = Eigen::MatrixXd::Zero(columns, static_cast<Eigen::Index>(group.channels.size()));
+      early_.sums.apply(product_);
       for (std::size_t k = 0; k < group.channels.size(); ++k) {
-        accumulate(product_, early_target_[group.channels[k]], k == 0 ? &candidate.gram : nullptr,
-                   candidate.rhs.col(static_cast<Eigen::Index>(k)));
+        SmallMatrix* const gram = k < candidate.gram.size() ? &candidate.gram[k] : nullptr;
+        add_equations(early_, group.channels[k], product_, gram, candidate.rhs.col(static_cast<Eigen::Index>(k)));
       }
     }
   }
@@ -144,7 +192,7 @@ void Profile::reset_early_equations() {
   const auto columns = static_cast<Eigen::Index>(columns_);
   for (Group& group : groups_) {
     for (Candidate& candidate : group.candidates) {
-      candidate.gram = SmallMatrix::Zero(columns, columns);
+      candidate.gram.assign(emphasised_ ? group.channels.size() : 1, SmallMatrix::Zero(columns, columns));
       candidate.rhs = Eigen::MatrixXd::Zero(columns, static_cast<Eigen::Index>(group.channels.size()));
     }
   }
@@ -156,13 +204,19 @@ Profile::Choice Profile::choose_from(std::size_t channel, const Group& group, st
   Choice best;
   best.loss = std::numeric_limits<double>::infinity();
   for (const Candidate& candidate : group.candidates) {
-    SmallMatrix gram = candidate.gram;
+    SmallMatrix gram = candidate.gram[emphasised_ ? position : 0];
     Eigen::VectorXd rhs = candidate.rhs.col(static_cast<Eigen::Index>(position));
+    Eigen::MatrixXd product;
     if (late_shape.rows() > 0) {
-      const Eigen::MatrixXd product = candidate.late.cwiseProduct(late_shape);
-      accumulate(product, late_target_[channel], &gram, rhs);
+      product = candidate.late.cwiseProduct(late_shape);
+      late_.sums.apply(product);
+      add_equations(late_, channel, product, &gram, rhs);
     }
-    const CoefficientSolver::Solution solution = solver_.solve(gram, rhs, c.lower, c.upper);
+    CoefficientSolver::Solution solution = solver_.solve(gram, rhs, c.lower, c.upper);
+    if (!problem_.quadratic()) {
+      solution = refine_coefficients(problem_, channel, solver_, product, solution.k);
+      solution.value -= target2_[channel];
+    }
     // The difference of near equals: round-off may leave it a little below zero on noise-free data.
     const double sum = target2_[channel] + solution.value;
     if (!std::isfinite(sum)) continue;  // a shape factor left the range of doubles
@@ -180,13 +234,15 @@ FitPoint Profile::point(const double* z) {
   p.z.assign(z, z + problem_.shape.free);
   p.coefficients.resize(problem_.channels.size());
   if (problem_.free_optics != FreeOptics::none) p.optics.resize(problem_.channels.size());
-  Eigen::MatrixXd late_shape(late_weight_.size(), static_cast<Eigen::Index>(columns_));
+  Eigen::MatrixXd late_shape(late_.point_weight.size(), static_cast<Eigen::Index>(columns_));
+  bool have_late = false;
   for (const Group& group : groups_) {
     for (std::size_t k = 0; k < group.channels.size(); ++k) {
       const std::size_t channel = group.channels[k];
-      if (late_weight_.size() > 0) {
-        problem_.basis->shape_factors(late_, std::span(shape.data(), static_cast<std::size_t>(shape.size())),
+      if (!late_.rows.empty() && !(have_late && !problem_.basis->has_length())) {
+        problem_.basis->shape_factors(late_.pairs, std::span(shape.data(), static_cast<std::size_t>(shape.size())),
                                       problem_.wavelength(channel), column_pointers(late_shape));
+        have_late = true;
       }
       const Choice choice = choose_from(channel, group, k, late_shape);
       p.loss += choice.loss;

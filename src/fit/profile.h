@@ -22,12 +22,21 @@ class Profile {
   [[nodiscard]] std::size_t evaluations() const noexcept { return evaluations_; }
 
  private:
+  /// Residuals whose shape factors are computed together.
+  struct Part {
+    PairBatch pairs;
+    Eigen::VectorXd point_weight;
+    RowSums sums;
+    std::vector<std::size_t> rows;          ///< of the problem
+    std::vector<Eigen::VectorXd> target;    ///< one a channel; with its emphasis
+    std::vector<Eigen::VectorXd> emphasis;  ///< likewise; empty where it is 1 throughout
+  };
   /// A value of the optics that a group of channels may take; one where they are fixed.
   struct Candidate {
-    double value = 0.0;           ///< of the free optical parameter
-    Eigen::MatrixXd early, late;  ///< weight * optics factor, a column a basis column
-    SmallMatrix gram;             ///< of the early rows
-    Eigen::MatrixXd rhs;          ///< column a channel of the group
+    double value = 0.0;             ///< of the free optical parameter
+    Eigen::MatrixXd early, late;    ///< point weight * optics factor, a column a basis column
+    std::vector<SmallMatrix> gram;  ///< of the early rows; one for all channels of the group where none has an emphasis
+    Eigen::MatrixXd rhs;            ///< column a channel of the group
   };
   struct Group {
     std::vector<std::size_t> channels;
@@ -38,11 +47,15 @@ class Profile {
     double loss = 0.0, optics = 0.0;
   };
 
+  void divide();
+  void take(std::size_t row, std::size_t first_point, Part& part, std::vector<std::size_t>& points) const;
+  void fill(Part& part) const;
   void add_group(std::size_t index);
-  [[nodiscard]] Eigen::MatrixXd weighted_optics(const ChannelOptics& optics, const PairBatch& pairs,
-                                                const Eigen::VectorXd& weight) const;
+  [[nodiscard]] Eigen::MatrixXd weighted_optics(const ChannelOptics& optics, const Part& part) const;
   void reset_early_equations();
   void update_early(const Eigen::VectorXd& shape);
+  void add_equations(const Part& part, std::size_t channel, const Eigen::MatrixXd& columns, SmallMatrix* gram,
+                     Eigen::Ref<Eigen::VectorXd> rhs) const;
   [[nodiscard]] Choice choose_from(std::size_t channel, const Group& group, std::size_t position,
                                    const Eigen::MatrixXd& late_shape) const;
 
@@ -50,10 +63,10 @@ class Profile {
   std::size_t columns_;
   CoefficientSolver solver_;
   // Rows whose factors do not read the length come first ("early"); those that do ("late") are few, or all of them.
-  PairBatch early_, late_;
-  Eigen::VectorXd early_weight_, late_weight_;
-  std::vector<Eigen::VectorXd> early_target_, late_target_;  ///< one a channel
-  std::vector<double> target2_;                              ///< squared norm of each channel's target
+  // Where the loss is not quadratic no equations are kept, and all rows are late, in the problem's order.
+  Part early_, late_;
+  bool emphasised_ = false;      ///< some channel has an emphasis
+  std::vector<double> target2_;  ///< squared norm of each channel's target
   std::vector<Group> groups_;
   Eigen::MatrixXd early_shape_, product_;
   Eigen::VectorXd early_at_;  ///< shape parameters that early_shape_ is of; empty at first

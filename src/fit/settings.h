@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "../brdf/material.h"
+#include "../scan/reflectance_readings.h"
 
 namespace goniofit {
 
@@ -49,6 +50,7 @@ struct FitSettings {
   ExclusionSettings exclusions;
   /// Relative standard uncertainty of the instrument's absolute scale, common to all readings; else the scan's.
   std::optional<double> scale_u;
+  std::optional<ReflectanceReadings> reflectances;  ///< fitted beside the scan, by their channels' names
   std::vector<double> n, kappa, f0;  ///< none (scan's metadata, else n = 1.5, kappa = 0), one, or one a channel
   FreeOptics free_optics = FreeOptics::none;
   /// By name: a shape parameter (slope, tail ...), tau_um, a coefficient (k_dd, rho ...), n or f0 for every channel, or
@@ -91,6 +93,7 @@ struct Recipe {
   std::vector<std::string> channels;         ///< empty: all
   /// A table that n and kappa are taken from at the channels' wavelengths; settings has no n, kappa and f0 then.
   std::optional<std::filesystem::path> optical_constants;
+  std::optional<std::filesystem::path> reflectances;  ///< file of settings.reflectances
   FitSettings settings;
   std::uint64_t seed = 1;
   std::optional<VerifySettings> verify;

@@ -1,10 +1,35 @@
 #include "fit/solve.h"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
+#include <vector>
 
+#include "fit/model.h"
 #include "fit/search.h"
+#include "support/error.h"
 
 namespace goniofit {
+
+namespace {
+
+double suitable_scale(const Problem& problem, const FitPoint& point, RobustKernel kernel) {
+  const Linearisation l = linearise(problem, point);
+  std::vector<double> sizes;
+  for (std::size_t c = 0; c < l.residuals.size(); ++c) {
+    const Eigen::VectorXd& used = problem.channels[c].used;
+    for (Eigen::Index i = 0; i < l.residuals[c].size(); ++i) {
+      if (used.size() == 0 || used[i] > 0.0) sizes.push_back(std::fabs(l.residuals[c][i]));
+    }
+  }
+  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+  std::nth_element(sizes.begin(), middle, sizes.end());
+  // What a fit of noise-free readings leaves is round-off, which no kernel shall sort.
+  const double round_off = 1e-9 * std::sqrt(problem.total / static_cast<double>(sizes.size()));
+  return RobustLoss::tuning(kernel) * std::max({1.4826022185056018 * *middle, round_off, 1e-300});
+}
+
+}  // namespace
 
 Solved solve(const Problem& problem, double tolerance) {
   const SearchOutcome found = search(problem);
@@ -19,6 +44,26 @@ Solved solve(const Problem& problem, double tolerance) {
     }
   }
   return solved;
+}
+
+Solved solve(Problem& problem, const FitSettings& settings) {
+  if (settings.robust_scale && !(*settings.robust_scale > 0.0))
+    throw usage_error("robust scale: expected a number above 0");
+  if (settings.robust == RobustKernel::none) return solve(problem);
+  const Solved plain = solve(problem);
+  const double scale =
+      settings.robust_scale ? *settings.robust_scale : suitable_scale(problem, plain.best.point, settings.robust);
+  problem.make_robust(RobustLoss(settings.robust, scale));
+  Solved robust = solve(problem);
+  // A scale far below the residuals of a coarse grid flattens all of it: there the plain minimum is the better start.
+  Polished from_plain = polish(problem, plain.best.point);
+  robust.iterations += from_plain.iterations;
+  ++robust.starts;
+  if (from_plain.point.loss < robust.best.point.loss) robust.best = std::move(from_plain);
+  robust.evaluations += plain.evaluations;
+  robust.starts += plain.starts;
+  robust.iterations += plain.iterations;
+  return robust;
 }
 
 }  // namespace goniofit

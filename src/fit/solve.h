@@ -16,4 +16,8 @@ struct Solved {
 
 [[nodiscard]] Solved solve(const Problem& problem, double tolerance = result_accuracy);
 
+/// The same under the kernel that the settings ask for, at their scale, or at the one that suits the residuals of the
+/// fit without it (1.4826 times their median size for a standard deviation).
+[[nodiscard]] Solved solve(Problem& problem, const FitSettings& settings);
+
 }  // namespace goniofit

@@ -246,22 +246,22 @@ void Words::outliers() {
 }
 
 void Words::data() {
-  if (const auto zero = channels([](const auto& c) { return c.all_zero; }); !zero.empty()) {
+  if (const auto zero = channels([](const auto& c) { return c.clipping.all_zero; }); !zero.empty()) {
     say("all readings are 0 in channel {}: nothing was measured there", channel_list(scan_, zero));
   }
-  if (const auto cut = channels([](const auto& c) { return c.at_zero > 0; }); !cut.empty()) {
+  if (const auto cut = channels([](const auto& c) { return c.clipping.at_zero > 0; }); !cut.empty()) {
     say("readings of exactly 0 in channel {} (up to {} of {}): clamped, perhaps, which biases a fit upwards",
         channel_list(scan_, cut),
         std::max_element(d_.channels.begin(), d_.channels.end(),
-                         [](const auto& a, const auto& b) { return a.at_zero < b.at_zero; })
-            ->at_zero,
+                         [](const auto& a, const auto& b) { return a.clipping.at_zero < b.clipping.at_zero; })
+            ->clipping.at_zero,
         d_.readings / d_.channels.size());
   }
-  for (const std::size_t c : channels([](const auto& x) { return x.at_maximum > 0; })) {
+  for (const std::size_t c : channels([](const auto& x) { return x.clipping.at_maximum > 0; })) {
     say("{} readings of channel {} are exactly {:g}, its largest value: the detector was saturated, perhaps; leave "
         "them "
         "out",
-        d_.channels[c].at_maximum, scan_.channels[c].name, d_.channels[c].maximum);
+        d_.channels[c].clipping.at_maximum, scan_.channels[c].name, d_.channels[c].clipping.maximum);
   }
   std::set<std::int64_t> angles;
   for (const double theta : scan_.theta_i_deg) angles.insert(centidegrees(theta));

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "brdf/named_terms.h"
+#include "fit/loss.h"
 #include "geometry/angles.h"
 #include "io/line_reader.h"
 #include "io/recipe_parameters.h"
@@ -79,18 +80,33 @@ Terms read_terms(const TomlValue& value, const Basis* peer) {
   return terms;
 }
 
-void read_loss(const TomlValue& value) {
-  constexpr std::array<std::string_view, 4> later{"inverse-variance", "relative", "log1p", "cube-root"};
-  const std::string& name = value.text();
-  if (name == "cosine-l2") return;
-  const bool known = std::find(later.begin(), later.end(), name) != later.end();
-  value.fail(in_quotes(name) + (known ? " is not available" : " is not known") + ", expected \"cosine-l2\"");
+// loss = "log1p"; robust = "huber" or {kernel = "huber", scale = 0.02}.
+void read_loss(const TomlValue& document, FitSettings& settings) {
+  read_name(document, "loss", settings.loss);
+  read_name(document, "weight", settings.weight);
+  const auto robust = document.find("robust");
+  if (!robust) return;
+  if (robust->is_string()) return read_name(document, "robust", settings.robust);
+  if (!robust->is_table()) robust->fail_type(names_of<RobustKernel>() + ", or a table of kernel and scale");
+  robust->expect_keys({"kernel", "scale"});
+  read_name(*robust, "kernel", settings.robust);
+  if (const auto scale = robust->find("scale")) settings.robust_scale = read_number(*scale, Range::above(0.0));
 }
 
-Weight read_weight(const TomlValue& value) {
-  if (value.text() == "cosine") return Weight::cosine;
-  if (value.text() == "none") return Weight::none;
-  value.fail(in_quotes(value.text()) + " is not known, expected \"cosine\" or \"none\"");
+// exclude = {retro_deg = 7.0, saturated = true, clamped = true}; saturated may be the value from which on.
+void read_exclusions(const TomlValue& table, ExclusionSettings& exclude) {
+  table.expect_keys({"retro_deg", "saturated", "clamped"});
+  if (const auto retro = table.find("retro_deg")) {
+    exclude.retro_cone_deg = read_number(*retro, Range::closed(0.0, 180.0));
+  }
+  if (const auto saturated = table.find("saturated")) {
+    if (saturated->is_number()) {
+      exclude.saturated_from = read_number(*saturated, Range::above(0.0));
+    } else {
+      exclude.saturated = saturated->boolean();
+    }
+  }
+  if (const auto clamped = table.find("clamped")) exclude.clamped = clamped->boolean();
 }
 
 std::vector<std::string> read_channels(const TomlValue& array) {
@@ -250,7 +266,8 @@ void read_model(const TomlValue& document, const Basis* peer, FitSettings& setti
 // Optics and parameters read what comes before them: the model, the channels and the Fresnel tier.
 Recipe read_document(const TomlValue& document) {
   document.expect_keys({"name", "scan", "model", "components", "terms", "forms", "anisotropic", "loss", "weight",
-                        "max_theta_deg", "solid_angle_sr", "channels", "seed", "optics", "parameters", "verify"});
+                        "robust", "exclude", "reflectances", "max_theta_deg", "solid_angle_sr", "channels", "seed",
+                        "optics", "parameters", "verify"});
   Recipe recipe;
   recipe.source = document.source();
   FitSettings& settings = recipe.settings;
@@ -259,8 +276,9 @@ Recipe read_document(const TomlValue& document) {
   if (const auto model = document.find("model")) settings.model = model->text();
   const std::unique_ptr<const Basis> peer = require_model(document.source(), "/model", settings.model);
   read_model(document, peer.get(), settings);
-  if (const auto loss = document.find("loss")) read_loss(*loss);
-  if (const auto weight = document.find("weight")) settings.weight = read_weight(*weight);
+  read_loss(document, settings);
+  if (const auto exclude = document.find("exclude")) read_exclusions(*exclude, settings.exclusions);
+  if (const auto file = document.find("reflectances")) recipe.reflectances = beside(recipe, *file, "a path");
   if (const auto theta = document.find("max_theta_deg")) settings.max_theta_deg = read_number(*theta, theta_range());
   if (const auto angle = document.find("solid_angle_sr"))
     settings.solid_angle_sr = read_number(*angle, solid_angle_range());

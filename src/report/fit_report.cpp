@@ -9,6 +9,7 @@
 #include "report/fit_rows.h"
 #include "report/misfit_report.h"
 #include "report/number_text.h"
+#include "report/objective_text.h"
 #include "report/text_table.h"
 
 namespace goniofit {
@@ -91,8 +92,7 @@ std::string title_block(const FitResult& result, const Scan& scan, bool color) {
   if (material.components.has(Effect::coh)) {
     out += say("solid angle", number_text(material.solid_angle_sr) + " sr (source)");
   }
-  const char* const weight = result.weight == Weight::cosine ? "cos θᵢ " : "";
-  out += say("loss", fmt::format("Σ {}(f_model − f_measured)², over samples and channels", weight));
+  out += say("loss", objective_text(result));
   return out;
 }
 
@@ -190,15 +190,6 @@ std::string parameter_block(const FitResult& result, bool color) {
   return out;
 }
 
-std::string samples_text(const FitResult& result, const Scan& scan) {
-  std::string text = fmt::format("{} of {} used", result.samples, scan.size());
-  if (result.left_out_90 > 0) text += fmt::format("; {} left out at θ = 90°", result.left_out_90);
-  if (result.left_out_max_theta > 0) {
-    text += fmt::format("; {} left out beyond the largest θ asked for", result.left_out_max_theta);
-  }
-  return text;
-}
-
 std::string channel_rms_text(const FitResult& result) {
   std::string text;
   for (std::size_t c = 0; c < result.channel_rms.size(); ++c) {
@@ -214,13 +205,16 @@ std::string fit_block(const FitResult& result, const Scan& scan, bool color) {
   };
   std::string out = heading("Fit", color);
   out += say("converged", result.converged ? "yes" : "NO", result.converged ? Tint::good : Tint::bad);
-  out += say("loss", fmt::format("{:.6g} sr⁻²", result.loss));
+  if (!is_published(result)) out += say("minimum", fmt::format("{:.6g}", result.objective.value));
+  out += say("loss", fmt::format("{:.6g} sr⁻²{}", result.loss,
+                                 is_published(result) ? "" : " = Σ cos θᵢ (f_model − f_measured)², for comparison"));
   out += say("RMS", fmt::format("{:.4g} sr⁻¹ = √(loss / readings)", result.rms));
   const std::size_t channels = result.channel_rms.size();
   if (channels > 1 && channels <= compact_above) out += say("by channel", channel_rms_text(result));
   out += say("samples", samples_text(result, scan));
-  if (result.negative_values > 0) {
-    out += say("negatives", count_text(result.negative_values, "negative value", "negative values") + " (noise), kept");
+  if (result.left_out.negative_values > 0) {
+    out += say("negatives",
+               count_text(result.left_out.negative_values, "negative value", "negative values") + " (noise), kept");
   }
   out += say("search", fmt::format("{}, {}, {}; {}", count_text(result.search_evaluations, "evaluation", "evaluations"),
                                    count_text(result.polish_starts, "start", "starts"),

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "fit/loss.h"
 #include "report/fit_report.h"
 #include "report/fit_rows.h"
 #include "report/misfit_report.h"
@@ -120,9 +121,21 @@ std::string fit_report_json(const FitResult& result, const Scan& scan) {
   out["converged"] = result.converged;
   out["loss"] = finite_or_null(result.loss);
   out["rms"] = finite_or_null(result.rms);
+  out["objective"] = {
+      {"loss", name_of(result.objective.loss)},
+      {"weight", name_of(result.weight)},
+      {"robust", name_of(result.objective.robust)},
+      {"robust_scale",
+       result.objective.robust == RobustKernel::none ? Json(nullptr) : finite_or_null(result.objective.robust_scale)},
+      {"value", finite_or_null(result.objective.value)}};
   out["samples"] = result.samples;
-  out["left_out"] = {{"theta_90", result.left_out_90}, {"max_theta", result.left_out_max_theta}};
-  out["negative_values"] = result.negative_values;
+  out["reflectance_readings"] = result.reflectances;
+  out["left_out"] = {{"theta_90", result.left_out.at_90},
+                     {"max_theta", result.left_out.beyond_max_theta},
+                     {"retro_cone", result.left_out.retro_cone},
+                     {"saturated_values", result.left_out.saturated_values},
+                     {"clamped_values", result.left_out.clamped_values}};
+  out["negative_values"] = result.left_out.negative_values;
   out["search"] = {{"evaluations", result.search_evaluations},
                    {"polish_starts", result.polish_starts},
                    {"polish_iterations", result.polish_iterations},

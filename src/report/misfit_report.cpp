@@ -73,9 +73,9 @@ Json channel_json(const ChannelDiagnostics& c, const std::string& name) {
   out["residuals"] = {{"relative", c.residuals.relative}, {"additive", c.residuals.additive}};
   out["noise_floor"] = c.noise_floor;
   out["reciprocity"] = value_or_null(c.reciprocity);
-  out["all_zero"] = c.all_zero;
-  out["at_zero"] = c.at_zero;
-  out["at_maximum"] = c.at_maximum;
+  out["all_zero"] = c.clipping.all_zero;
+  out["at_zero"] = c.clipping.at_zero;
+  out["at_maximum"] = c.clipping.at_maximum;
   return out;
 }
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "fit/loss.h"
 #include "fit/model.h"
 #include "fit/problem.h"
 #include "support/materials.h"
@@ -26,6 +27,12 @@ Case make(const char* name, const Material& truth, Sampling sampling,
   c.settings.terms = truth.terms;
   if (change) change(c.settings);
   return c;
+}
+
+ReflectanceReadings reflectances_of_paint() {
+  return {"",
+          {8.0, 60.0},
+          {{"R", {0.1, 0.2}, {0.01, 0.01}}, {"g", {0.05, 0.1}, {0.01, 0.02}}, {"B", {0.04, 0.1}, {0.01, 0.01}}}};
 }
 
 std::vector<Case> cases() {
@@ -102,23 +109,23 @@ std::vector<Case> cases() {
     s.components = EffectSet{Effect::rough};
     s.forms.rough = RoughForm::integral;
   }));
+  for (const Loss loss : {Loss::inverse_variance, Loss::relative, Loss::log1p, Loss::cube_root}) {
+    const char* const names[] = {"", "PaintInverseVariance", "PaintRelative", "PaintLog1p", "PaintCubeRoot"};
+    all.push_back(make(names[static_cast<std::size_t>(loss)], paint, Sampling::incidence_plane, [&](FitSettings& s) {
+      s.loss = loss;
+      s.weight = Weight::cosine_solid_angle;
+      s.reflectances = reflectances_of_paint();
+    }));
+  }
+  all.push_back(make("CoherentCubeRootWithReflectances", smooth, Sampling::incidence_plane, [](FitSettings& s) {
+    s.loss = Loss::cube_root;
+    s.reflectances = ReflectanceReadings{"", {10.0, 50.0}, {{"550nm", {0.9, 0.88}, {0.01, 0.01}}}};
+  }));
   return all;
 }
 
-class Derivatives : public testing::TestWithParam<std::size_t> {};
-
-// Differences of all residuals for a step of one parameter, relative to the analytic column.
-double mismatch(const Eigen::VectorXd& analytic, const Eigen::VectorXd& forward, const Eigen::VectorXd& backward,
-                double step) {
-  const Eigen::VectorXd numeric = (forward - backward) / (2.0 * step);
-  return (numeric - analytic).norm() / std::max(analytic.norm(), 1e-300);
-}
-
-TEST_P(Derivatives, AgreeWithCentralDifferences) {
-  const Case c = cases()[GetParam()];
-  const Scan scan = simulate(c.truth, c.sampling, {0.05, 0.0}, 3);
-  const Problem problem(scan, c.settings);
-  // Away from the truth, so that residuals are not small.
+// The point at which a case is differentiated: away from the truth, so that residuals are not small.
+FitPoint point_of(const Case& c, const Problem& problem) {
   FitPoint point;
   for (int z = 0; z < problem.shape.free; ++z) {
     const auto i = static_cast<std::size_t>(z);
@@ -133,6 +140,23 @@ TEST_P(Derivatives, AgreeWithCentralDifferences) {
     if (problem.free_optics != FreeOptics::none)
       point.optics.push_back(problem.free_optics == FreeOptics::f0 ? 0.1 : 1.8);
   }
+  return point;
+}
+
+class Derivatives : public testing::TestWithParam<std::size_t> {};
+
+// Differences of all residuals for a step of one parameter, relative to the analytic column.
+double mismatch(const Eigen::VectorXd& analytic, const Eigen::VectorXd& forward, const Eigen::VectorXd& backward,
+                double step) {
+  const Eigen::VectorXd numeric = (forward - backward) / (2.0 * step);
+  return (numeric - analytic).norm() / std::max(analytic.norm(), 1e-300);
+}
+
+TEST_P(Derivatives, AgreeWithCentralDifferences) {
+  const Case c = cases()[GetParam()];
+  const Scan scan = simulate(c.truth, c.sampling, {0.05, 0.0}, 3, true);
+  const Problem problem(scan, c.settings);
+  const FitPoint point = point_of(c, problem);
   const Linearisation l = linearise(problem, point);
   const double h = 1e-5;
   for (std::size_t z = 0; z < point.z.size(); ++z) {
@@ -164,6 +188,43 @@ TEST_P(Derivatives, AgreeWithCentralDifferences) {
     down.optics[k] -= h;
     EXPECT_LT(mismatch(l.by_optics[k], linearise(problem, up).residuals[k], linearise(problem, down).residuals[k], h),
               1e-6);
+  }
+}
+
+// A kernel's residuals come reweighted, so it is the gradient of the loss that differences have to find.
+TEST(Derivatives, OfEveryLossUnderEveryKernelAreTheLosssOwn) {
+  for (const Loss loss : {Loss::cosine_l2, Loss::inverse_variance, Loss::relative, Loss::log1p, Loss::cube_root}) {
+    for (const RobustKernel kernel :
+         {RobustKernel::huber, RobustKernel::soft_l1, RobustKernel::cauchy, RobustKernel::tukey}) {
+      const Case c = make("", test::garnet_red_paint_13(), Sampling::incidence_plane, [&](FitSettings& s) {
+        s.loss = loss;
+        s.reflectances = reflectances_of_paint();
+      });
+      Problem problem(simulate(c.truth, c.sampling, {0.05, 0.0}, 3, true), c.settings);
+      FitPoint point = point_of(c, problem);
+      const double typical = std::sqrt(linearise(problem, point).loss / static_cast<double>(problem.values_used()));
+      problem.make_robust(RobustLoss(kernel, typical));
+      const Linearisation l = linearise(problem, point);
+      double gradient = 0.0;
+      for (std::size_t k = 0; k < problem.channels.size(); ++k)
+        gradient += 2.0 * l.by_shape[k].col(0).dot(l.residuals[k]);
+      const double h = 1e-5;
+      point.z[0] += h;
+      const double up = linearise(problem, point).loss;
+      point.z[0] -= 2.0 * h;
+      const double down = linearise(problem, point).loss;
+      point.z[0] += h;
+      EXPECT_NEAR((up - down) / (2.0 * h) / gradient, 1.0, 1e-5) << name_of(loss) << " " << name_of(kernel);
+      const double by_k = 2.0 * l.by_coefficient[0].col(0).dot(l.residuals[0]);
+      point.coefficients[0][0] += h;
+      const double more = linearise(problem, point).loss;
+      point.coefficients[0][0] -= 2.0 * h;
+      const double less = linearise(problem, point).loss;
+      EXPECT_NEAR((more - less) / (2.0 * h) / by_k, 1.0, 1e-5) << name_of(loss) << " " << name_of(kernel);
+      double squares = 0.0;
+      for (const Eigen::VectorXd& r : l.residuals) squares += r.squaredNorm();
+      EXPECT_LE(squares, l.loss) << "the polish takes what is missing for a constant";
+    }
   }
 }
 

@@ -137,19 +137,20 @@ TEST(Diagnostics, CutOffValuesAreNamed) {
     return std::clamp(2.0 * std::exp(-0.01 * (r - i) * (r - i)) - 0.01, 0.0, 1.5);
   });
   const FitDiagnostics d = diagnose(cut, lambert({1.0}), {});
-  EXPECT_GT(d.channels[0].at_zero, 100U);
-  EXPECT_EQ(d.channels[0].at_maximum, 22U);
+  EXPECT_GT(d.channels[0].clipping.at_zero, 100U);
+  EXPECT_EQ(d.channels[0].clipping.at_maximum, 22U);
   EXPECT_TRUE(says(d, "22 readings of channel R are exactly 1.5")) << all(d);
   EXPECT_TRUE(says(d, "readings of exactly 0 in channel R")) << all(d);
   const Scan white = in_plane_scan({20.0, 50.0}, 1.0, [](double, double) { return 1.0 / pi; });
-  EXPECT_EQ(diagnose(white, lambert({1.0}), {}).channels[0].at_maximum, 0U) << "a Lambertian surface is no saturation";
+  EXPECT_EQ(diagnose(white, lambert({1.0}), {}).channels[0].clipping.at_maximum, 0U)
+      << "a Lambertian surface is no saturation";
 }
 
 TEST(Diagnostics, AnAllZeroChannelIsNamedAndNoFailure) {
   Scan scan = simulate(test::garnet_by_slope(), Sampling::incidence_plane, {0.02, 0.0}, 7);
   std::fill(scan.channels[1].values.begin(), scan.channels[1].values.end(), 0.0);
   const FitDiagnostics d = fitted(scan, usual, 1.7);
-  EXPECT_TRUE(d.channels[1].all_zero);
+  EXPECT_TRUE(d.channels[1].clipping.all_zero);
   EXPECT_TRUE(says(d, "all readings are 0 in channel G")) << all(d);
   EXPECT_NE(d.verdict, FitVerdict::fails) << all(d);
 }

@@ -208,9 +208,9 @@ TEST(Fit, ExcludesAndCounts) {
   FitSettings s;
   s.max_theta_deg = 70.0;
   const FitResult r = fit(scan, s);
-  EXPECT_EQ(r.left_out_90, 1U);
-  EXPECT_GT(r.left_out_max_theta, 0U);
-  EXPECT_EQ(r.samples + r.left_out_90 + r.left_out_max_theta, all);
+  EXPECT_EQ(r.left_out.at_90, 1U);
+  EXPECT_GT(r.left_out.beyond_max_theta, 0U);
+  EXPECT_EQ(r.samples + r.left_out.at_90 + r.left_out.beyond_max_theta, all);
   EXPECT_TRUE(r.components_were_auto);
   ASSERT_TRUE(r.selection);
   EXPECT_EQ(r.material.components, r.selection->chosen());

@@ -11,6 +11,7 @@
 #include "io/material_io.h"
 #include "io/optical_constants.h"
 #include "io/recipe_io.h"
+#include "io/reflectance_reader.h"
 #include "io/scan_reader.h"
 #include "support/error.h"
 
@@ -75,6 +76,18 @@ void directions(std::string_view bytes) {
     std::istringstream in{std::string(bytes)};
     const DirectionTable table = read_directions(in, "fuzz.csv");
     require(!table.lines.empty() && table.lines.size() == table.angles.size(), "lines and angles do not match");
+  });
+}
+
+void reflectances(std::string_view bytes) {
+  accept_errors([bytes] {
+    std::istringstream in{std::string(bytes)};
+    const ReflectanceReadings readings = read_reflectances(in, "fuzz.csv");
+    require(readings.size() > 0 && !readings.channels.empty(), "nothing was read");
+    for (const ReflectanceChannel& c : readings.channels) {
+      require(c.values.size() == readings.size(), "a channel is short");
+      require(c.u.empty() || c.u.size() == readings.size(), "uncertainties are missing");
+    }
   });
 }
 

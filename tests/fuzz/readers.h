@@ -11,6 +11,7 @@ namespace goniofit::fuzz {
 void scan(std::string_view bytes);
 void directions(std::string_view bytes);
 void optical_constants(std::string_view bytes);
+void reflectances(std::string_view bytes);
 void material(std::string_view bytes);
 void recipe(std::string_view bytes);
 void exr_table(std::string_view bytes);
@@ -19,8 +20,12 @@ struct Reader {
   const char* name;  ///< of its corpus folder
   void (*read)(std::string_view bytes);
 };
-inline constexpr std::array readers{
-    Reader{"scan", scan},         Reader{"directions", directions}, Reader{"optical_constants", optical_constants},
-    Reader{"material", material}, Reader{"recipe", recipe},         Reader{"exr_table", exr_table}};
+inline constexpr std::array readers{Reader{"scan", scan},
+                                    Reader{"directions", directions},
+                                    Reader{"optical_constants", optical_constants},
+                                    Reader{"reflectances", reflectances},
+                                    Reader{"material", material},
+                                    Reader{"recipe", recipe},
+                                    Reader{"exr_table", exr_table}};
 
 }  // namespace goniofit::fuzz

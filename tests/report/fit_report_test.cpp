@@ -53,9 +53,9 @@ struct Sample {
       result.reflectance.push_back({theta, std::vector<double>(channels, theta > 50.0 ? 1.25 : 0.5)});
     }
     result.samples = 880;
-    result.left_out_90 = 12;
-    result.left_out_max_theta = 8;
-    result.negative_values = 3;
+    result.left_out.at_90 = 12;
+    result.left_out.beyond_max_theta = 8;
+    result.left_out.negative_values = 3;
     result.loss = 0.0125;
     result.rms = 0.0031;
     result.search_evaluations = 121;

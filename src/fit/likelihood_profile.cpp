@@ -217,7 +217,8 @@ void ProfileWalk::cover(Side side) {
 
 // The outermost place where the root of Δ reaches `root`.
 ProfileWalk::Limit ProfileWalk::limit(Side side, double root) {
-  if (at_bound(side)) return {bound_of(side), ProfileEnd::bound};
+  // What nothing determines may have been left anywhere, on a bound too.
+  if (at_bound(side)) return {bound_of(side), out_.determined ? ProfileEnd::bound : ProfileEnd::open};
   const bool by_search = side == Side::above ? searched_above_ : searched_below_;
   std::vector<double> ys{y0_};
   for (const auto& [y, point] : points_) {
@@ -307,9 +308,12 @@ std::string LikelihoodProfile::remark() const {
   if (below && above) return "open on both sides: not determined";
   std::string text;
   const auto add = [&text](const char* words) { text += (text.empty() ? "" : ", ") + std::string(words); };
-  if (lower_end == ProfileEnd::bound || upper_end == ProfileEnd::bound) add("one-sided");
-  if (below) add("open below");
-  if (above) add("open above");
+  // The bounds of a coefficient are what it can be; those of a shape parameter only how far was looked.
+  const bool own_bounds = !channel.empty();
+  const bool on_bound = lower_end == ProfileEnd::bound || upper_end == ProfileEnd::bound;
+  if (on_bound || (own_bounds && (below || above))) add("one-sided");
+  if (below && !own_bounds) add("open below");
+  if (above && (!own_bounds || on_bound)) add("open above");
   if (two_dips) add("two dips");
   if (asymmetry() > 0.1) add("not parabolic");
   return text;

@@ -69,7 +69,7 @@ struct LikelihoodProfile {
 
   /// Largest relative deviation of the limits of 95 % from value ± k u; of crossed ones.
   [[nodiscard]] double asymmetry() const;
-  /// "one-sided", "open above", "not parabolic": in words; empty where the interval is as good as value ± k u.
+  /// "one-sided" (a bound of its own is an end), "open above", "not parabolic": in words; empty where the interval is as good as value ± k u.
   [[nodiscard]] std::string remark() const;
   /// "slope", "R.k_dd".
   [[nodiscard]] std::string key() const { return channel.empty() ? name : channel + "." + name; }

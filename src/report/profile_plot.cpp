@@ -58,6 +58,14 @@ Axis axis_of(const LikelihoodProfile& p) {
   return {low - margin, high + margin, false};
 }
 
+// Three or four tics: their numbers are long.
+double tic_step(const Axis& axis) {
+  const double step = (axis.high - axis.low) / 3.5;
+  const double unit = std::pow(10.0, std::floor(std::log10(step)));
+  const double part = step / unit;
+  return unit * (part <= 1.0 ? 1.0 : part <= 2.0 ? 2.0 : part <= 5.0 ? 5.0 : 10.0);
+}
+
 std::string title_of(const LikelihoodProfile& p) {
   std::string text = p.key();
   if (!p.determined) return text + " (not determined)";
@@ -96,22 +104,16 @@ std::string panel_commands(const PanelGrid& grid, const PlotPage& page, const Li
   std::string out = "unset label\nunset arrow\nunset logscale\n";
   out += page.margins(grid.x(panel), grid.y(panel), grid.panel_width, grid.panel_height);
   out +=
-      page.label(1, title_of(p), grid.x(panel), grid.y(panel) - 11.0, fmt::format("left font '{}'", page.font(12.5)));
-  if (const std::string remark = p.remark(); !remark.empty()) {
-    out += page.label(2, remark, grid.x(panel) + 0.5 * grid.panel_width, grid.y(panel) + 12.0,
-                      fmt::format("center front font '{}' textcolor rgb '{}'", page.font(11.5), limit_color));
-  }
+      page.label(1, title_of(p), grid.x(panel), grid.y(panel) - 26.0, fmt::format("left font '{}'", page.font(12.5)));
+  out += page.label(2, p.remark(), grid.x(panel), grid.y(panel) - 10.0,
+                    fmt::format("left font '{}' textcolor rgb '{}'", page.font(11.5), limit_color));
   out += fmt::format("set xrange [{:.10g}:{:.10g}]\nset yrange [0:{}]\n", axis.low, axis.high,
                      highest * p.coverage_factor / 1.96);
-  out += axis.log ? "set logscale x\nset xtics autofreq\n" : fmt::format("set xtics {:.3g} nomirror out\n", [&] {
-    // Three or four tics: their numbers are long.
-    const double step = (axis.high - axis.low) / 3.2;
-    const double unit = std::pow(10.0, std::floor(std::log10(step)));
-    const double part = step / unit;
-    return unit * (part >= 5.0 ? 5.0 : part >= 2.0 ? 2.0 : 1.0);
-  }());
-  out += fmt::format("set ytics ('0' 0, '68 %%' 1, '95 %%' {:.4g}) nomirror out\n", p.coverage_factor);
-  if (panel % grid.columns > 0) out += "set format y ''\nset ytics format ''\n";
+  out += axis.log ? "set logscale x\nset xtics autofreq\n"
+                  : fmt::format("set xtics {:.3g} nomirror out\n", tic_step(axis));
+  const bool labelled = panel % grid.columns == 0;
+  out += fmt::format("set ytics ('{}' 0, '{}' 1, '{}' {:.4g}) nomirror out\n", labelled ? "0" : "",
+                     labelled ? "68 %%" : "", labelled ? "95 %%" : "", p.coverage_factor);
   for (const double level : {1.0, p.coverage_factor})
     out +=
         fmt::format("set arrow from graph 0, first {0:.4g} to graph 1, first {0:.4g} nohead lc rgb '#D0D0D0'\n", level);
@@ -148,9 +150,9 @@ void plot_profiles(const std::filesystem::path& path, const FitResult& result, c
                        .panel_width = 240.0,
                        .panel_height = 170.0,
                        .gap_x = 22.0,
-                       .gap_y = 58.0,
+                       .gap_y = 72.0,
                        .left = 56.0,
-                       .top = 80.0,
+                       .top = 96.0,
                        .right = 24.0,
                        .bottom = 34.0};
   const PlotPage page = grid.page(png);

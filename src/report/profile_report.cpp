@@ -17,6 +17,7 @@ using Json = nlohmann::ordered_json;
 
 std::string limit_text(double limit, double u) {
   if (std::isinf(limit)) return limit > 0.0 ? "∞" : "−∞";
+  if (limit == 0.0) return "0";
   return u > 0.0 ? value_text(limit, u).value : number_text(limit);
 }
 

@@ -133,8 +133,9 @@ ResidualPlan plan_residuals(const Scan& scan, const FitResult& result) {
   for (const std::size_t c : plan.channels) {
     std::vector<double>& values = plan.values.emplace_back();
     for (std::size_t row = 0; row < scan.size(); ++row) {
-      const double unit = plan.by_u ? scan.channels[c].u[row] : std::max(fitted[c][row], plan.floor);
-      values.push_back((scan.channels[c].values[row] - fitted[c][row]) / unit);
+      const double f = scan.channels[c].values[row];
+      const double unit = plan.by_u ? scan.channels[c].u[row] : std::max({std::fabs(f), fitted[c][row], plan.floor});
+      values.push_back((f - fitted[c][row]) / unit);
     }
   }
   std::vector<double> sizes;
@@ -144,6 +145,7 @@ ResidualPlan plan_residuals(const Scan& scan, const FitResult& result) {
     }
   }
   plan.limit = nice_limit(sizes);
+  if (!plan.by_u) plan.limit = std::min(plan.limit, 1.0);
   plan.beyond = static_cast<std::size_t>(
       std::count_if(sizes.begin(), sizes.end(), [&](double size) { return size > plan.limit; }));
   return plan;

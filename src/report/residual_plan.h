@@ -20,7 +20,7 @@ struct ResidualPlan {
   bool map = false;                   ///< of the hemisphere; else curves against theta_r
   std::vector<ResidualPanel> panels;  ///< by theta_i
   std::size_t incidences = 0;         ///< there are
-  /// (measured - fitted) / u where the scan states u; else / max(fitted, floor).
+  /// (measured - fitted) / u where the scan states u; else / max(|measured|, fitted, floor).
   bool by_u = false;
   double floor = 0.0;                       ///< 1/sr
   std::vector<std::vector<double>> values;  ///< [channel shown][row of the scan]

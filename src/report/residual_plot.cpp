@@ -26,11 +26,11 @@ double map_radius(double theta_deg) { return std::sqrt(2.0) * sin_deg(0.5 * thet
 struct MapPoint {
   double x, y;
 };
-// Forward, where the mirror direction is, is to the right.
+// From above, azimuths counter-clockwise; forward, where the mirror direction is, to the right.
 MapPoint map_point(const AnglePair& a) {
   const double phi = a.phi_r_deg - a.phi_i_deg;
   const double r = map_radius(a.theta_r_deg);
-  return {-r * cos_deg(phi), r * sin_deg(phi)};
+  return {-r * cos_deg(phi), -r * sin_deg(phi)};
 }
 
 std::string angle_text(double degrees) { return fmt::format("{:.4g}", std::round(10.0 * degrees) / 10.0); }
@@ -42,17 +42,18 @@ std::string panel_title(const ResidualPanel& panel) {
 }
 
 std::string unit_text(const ResidualPlan& plan) {
-  return plan.by_u ? "(measured − fitted) / u" : "(measured − fitted) / fitted";
+  return plan.by_u ? "(measured − fitted) / u" : "(measured − fitted) / the larger of them";
 }
 
+// As the label of a tic, which gnuplot takes for a format.
 std::string scale_text(const ResidualPlan& plan, double value) {
-  return plan.by_u ? fmt::format("{:+.3g}", value) : fmt::format("{:+.3g} %", 100.0 * value);
+  return plan.by_u ? fmt::format("{:+.3g}", value) : fmt::format("{:+.3g} %%", 100.0 * value);
 }
 
 // What a reader must know to read the picture.
 std::string remarks(const ResidualPlan& plan, const Scan& scan) {
   std::string text = unit_text(plan);
-  if (!plan.by_u) text += fmt::format(", or / {:.2g} sr⁻¹ where fitted is less", plan.floor);
+  if (!plan.by_u) text += fmt::format(", or / {:.2g} sr⁻¹ where both are less", plan.floor);
   std::size_t readings = 0;
   for (const ResidualPanel& panel : plan.panels) readings += panel.rows.size();
   text += fmt::format("; {} of {} beyond the scale", plan.beyond, readings * plan.channels.size());

@@ -60,7 +60,7 @@ Axis axis_of(const LikelihoodProfile& p) {
 
 // Three or four tics: their numbers are long.
 double tic_step(const Axis& axis) {
-  const double step = (axis.high - axis.low) / 3.5;
+  const double step = (axis.high - axis.low) / 4.2;
   const double unit = std::pow(10.0, std::floor(std::log10(step)));
   const double part = step / unit;
   return unit * (part <= 1.0 ? 1.0 : part <= 2.0 ? 2.0 : part <= 5.0 ? 5.0 : 10.0);

@@ -230,7 +230,8 @@ std::string curve_script(bool png, const Scan& scan, const ResidualPlan& plan, c
   std::string script = page.terminal();
   for (std::size_t i = 0; i < panels; ++i) script += curve_data(scan, plan, i);
   script += fmt::format(
-      "set datafile missing 'NaN'\nset xrange [-90:90]\nset yrange [{:.6g}:{:.6g}]\nset xtics 30 nomirror out\nset "
+      "set datafile missing 'NaN'\nset xrange [-90:90]\nset yrange [{:.6g}:{:.6g}]\nset xtics -60,60,60 nomirror "
+      "out\nset "
       "border 3 lc rgb '#404040'\nset key at screen {:.5f},{:.5f} right horizontal noenhanced samplen 1.5\nset "
       "multiplot\n",
       -1.12 * plan.limit, 1.12 * plan.limit, 1.0 - 20.0 / page.width, 1.0 - 58.0 / page.height);

@@ -12,6 +12,7 @@
 #include "cli/console.h"
 #include "cli/fit_flags.h"
 #include "cli/fit_inputs.h"
+#include "cli/fit_outputs.h"
 #include "cli/outputs.h"
 #include "io/exr_table.h"
 #include "io/material_io.h"
@@ -31,6 +32,7 @@ struct Options {
   std::vector<Path> plots;
   std::string plot_axis = "auto";
   FitFlags flags;
+  FitOutputs extra;
   std::optional<std::string> name;
   bool json = false, quiet = false;
 };
@@ -56,7 +58,9 @@ void check_usage(const Options& options, const Recipe& recipe) {
   for (const Path& plot : options.plots) {
     if (is_stdout(plot)) throw usage_error("--plot: a picture needs a file name ending in .svg or .png");
   }
-  std::vector<Path> outputs{options.output, options.table, options.exr};
+  check_fit_outputs(options.extra);
+  std::vector<Path> outputs = options.extra.files();
+  outputs.insert(outputs.end(), {options.output, options.table, options.exr});
   outputs.insert(outputs.end(), options.plots.begin(), options.plots.end());
   check_outputs(outputs, inputs);
 }
@@ -68,6 +72,7 @@ void write_outputs(const Options& options, const Scan& scan, const FitResult& re
   if (!options.table.empty()) write_result(options.table, to_csv({result.material}));
   if (table) write_exr(options.exr, result.material, *table);
   for (const Path& plot : options.plots) plot_fit(plot, scan, result.material, plot_options(options));
+  draw_fit_outputs(options.extra, scan, result);
 }
 
 void print_result(const Options& options, const Scan& scan, const FitResult& result) {
@@ -88,7 +93,8 @@ int run(const Options& options) {
   const PlotOptions plot = plot_options(options);
   const Scan scan = read_scans(options.scan, options.flags, recipe, options.name);
   for (const Path& path : options.plots) check_plot(path, scan, plot);
-  const FitSettings settings = settings_of(options.flags, recipe, scan);
+  FitSettings settings = settings_of(options.flags, recipe, scan);
+  apply_fit_outputs(options.extra, settings);
   const FitResult result = [&] {
     const ProgressLine progress("fitting " + in_quotes(scan.name), options.quiet);
     FitResult fitted = fit(scan, settings);
@@ -121,9 +127,11 @@ void add_fit(CLI::App& program, int& status) {
   command->add_flag("-q,--quiet", options->quiet, "no progress on standard error");
   add_model_flag(*command, options->flags);
   add_fit_flags(*command, options->flags);
+  add_fit_outputs(*command, options->extra);
   command->footer(
       "Example:\n  goniofit fit data/garnet_red_paint_13.csv --n 1.7 --components dd,uds,fs -o garnet.json --plot "
-      "garnet.svg");
+      "garnet.svg\n  goniofit fit data/garnet_red_paint_13.csv --profile slope,R.k_fs --profile-plot profiles.svg "
+      "--residual-plot residuals.svg");
   command->callback([options, output, &status] {
     options->has_output = output->count() > 0;
     status = run(*options);

@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <memory>
 #include <set>
+#include <utility>
 
 #include "brdf/evaluator.h"
 #include "fit/assemble.h"
+#include "fit/likelihood_profile.h"
 #include "fit/problem.h"
 #include "fit/solve.h"
 
@@ -14,14 +17,22 @@ namespace goniofit {
 
 namespace {
 
-FitResult fit_as_asked(const Scan& scan, const FitSettings& settings) {
-  Problem problem(scan, settings);
-  const Solved solved = solve(problem, settings);
-  FitResult result = assemble(problem, scan, solved.best);
+// A fit with what its profiles need.
+struct Fitted {
+  FitResult result;
+  std::unique_ptr<Problem> problem;
+  FitPoint point;
+};
+
+Fitted fit_as_asked(const Scan& scan, const FitSettings& settings) {
+  auto problem = std::make_unique<Problem>(scan, settings);
+  if (settings.profile) check_profile_names(*problem, *settings.profile);
+  const Solved solved = solve(*problem, settings);
+  FitResult result = assemble(*problem, scan, solved.best);
   result.search_evaluations = solved.evaluations;
   result.polish_starts = solved.starts;
   result.polish_iterations = solved.iterations;
-  return result;
+  return {std::move(result), std::move(problem), solved.best.point};
 }
 
 // Whether the scan leaves open what tells the distribution asked for from its rough limit: the tail of student-t, or
@@ -43,19 +54,44 @@ const char* open_parameter(const FitResult& r) {
 
 // What wave optics changes falls with 1/sigma². Where sigma is open by half of itself, that change is not to be told
 // from none by the scan's own scatter: then the rough limit, which has no sigma, is the answer, unless it is far worse.
-void settle_distribution(const Scan& scan, FitSettings settings, FitResult& result) {
+void settle_distribution(const Scan& scan, FitSettings settings, Fitted& fitted) {
+  FitResult& result = fitted.result;
   const char* const name = open_parameter(result);
   if (name == nullptr) return;
   const std::string asked_for(name_of(settings.terms.distribution));
   settings.terms.distribution = DistributionTier::rough_limit;
   settings.parameters.erase(name);
-  FitResult rough = fit_as_asked(scan, settings);
-  if (rough.loss > 1.1 * result.loss) return;
+  settings.profile.reset();  // its names were checked
+  Fitted without = fit_as_asked(scan, settings);
+  FitResult& rough = without.result;
+  if (rough.objective.value > 1.1 * result.objective.value) return;
   rough.warnings.push_back(std::string(name) + " is not determined: nothing in this scan tells the distribution " +
                            asked_for + " from its rough limit, which the material has instead");
   rough.search_evaluations += result.search_evaluations;
   rough.polish_iterations += result.polish_iterations;
-  result = std::move(rough);
+  fitted = std::move(without);
+}
+
+// Intervals from the profiles take the place of those from u. A fit that a profile went below is none.
+void add_profiles(const std::vector<std::string>& names, Fitted& fitted) {
+  FitResult& result = fitted.result;
+  result.profiles = likelihood_profiles(*fitted.problem, fitted.point, result.parameters, names);
+  for (const LikelihoodProfile& profile : result.profiles) {
+    if (profile.lower_loss) {
+      result.converged = result.material.fit->converged = false;
+      result.warnings.push_back("the profile of " + profile.key() +
+                                " met a lower loss than the fit's: this is not the best fit; bound the parameters "
+                                "closer, or try fewer components");
+    }
+    const auto row = std::find_if(result.parameters.begin(), result.parameters.end(), [&](const FittedParameter& p) {
+      return p.name == profile.name && p.channel == profile.channel;
+    });
+    if (row == result.parameters.end() || !row->value || !profile.interval_95) continue;
+    row->interval_68 = profile.interval_68;
+    row->interval_95 = profile.interval_95;
+    const bool finite = std::isfinite(profile.interval_95->lower) && std::isfinite(profile.interval_95->upper);
+    if (finite) result.material.fit->interval_95[profile.key()] = *profile.interval_95;
+  }
 }
 
 // A peer of which the scan leaves a parameter open has none.
@@ -81,8 +117,10 @@ FitResult fit(const Scan& scan, const FitSettings& settings) {
     selection = select_components(scan, settings);
     own.components = selection->chosen();
   }
-  FitResult result = fit_as_asked(scan, own);
-  settle_distribution(scan, own, result);
+  Fitted fitted = fit_as_asked(scan, own);
+  settle_distribution(scan, own, fitted);
+  if (own.profile) add_profiles(*own.profile, fitted);
+  FitResult result = std::move(fitted.result);
   if (selection) {
     result.notes.insert(result.notes.begin(), selection->reason);
     result.components_were_auto = true;

@@ -10,6 +10,7 @@
 #include "../scan/scan.h"
 #include "diagnostics.h"
 #include "exclusions.h"
+#include "likelihood_profile.h"
 #include "selection.h"
 #include "settings.h"
 
@@ -63,6 +64,7 @@ struct FitResult {
   bool converged = false;
   bool components_were_auto = false;
   std::optional<Selection> selection;         ///< how "auto" chose; also the first of the notes
+  std::vector<LikelihoodProfile> profiles;    ///< those that FitSettings::profile asks for
   std::optional<FitDiagnostics> diagnostics;  ///< whether the material describes the scan; none where it has no values
                                               ///< (a parameter of a peer is open)
   std::vector<std::string> notes;             ///< what was decided on the user's behalf ("auto: ...")

@@ -290,7 +290,7 @@ Pressure shape_pressure(const Problem& problem, const Linearisation& l, const Fi
   }
   const auto i = static_cast<std::size_t>(z);
   return {steepness(product, column2, 1.0, l.loss, problem.total), p.z[i] <= problem.shape.lower[i],
-          p.z[i] >= problem.shape.upper[i], false};
+          p.z[i] >= problem.shape.upper[i], problem.shape.lower[i] >= problem.shape.upper[i]};
 }
 
 constexpr double release_tolerance = 1e-7;

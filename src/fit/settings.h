@@ -58,6 +58,8 @@ struct FitSettings {
   std::map<std::string, ParameterSetting> parameters;
   std::optional<double> solid_angle_sr;  ///< else the scan's, else 0.0005
   double max_theta_deg = 90.0;           ///< samples with theta_i or theta_r above are left out; exactly 90 always is
+  /// Parameters to profile (fit/likelihood_profile.h): "slope", "k_dd" of every channel, "R.k_dd"; all where empty.
+  std::optional<std::vector<std::string>> profile{};
 };
 
 /// Bounds unless told otherwise.

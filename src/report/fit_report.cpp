@@ -10,6 +10,7 @@
 #include "report/misfit_report.h"
 #include "report/number_text.h"
 #include "report/objective_text.h"
+#include "report/profile_report.h"
 #include "report/text_table.h"
 
 namespace goniofit {
@@ -307,6 +308,8 @@ std::string list_block(const std::string& title, const std::vector<std::string>&
 std::string fit_report(const FitResult& result, const Scan& scan, const ReportStyle& style) {
   std::string out = title_block(result, scan, style.color);
   out += parameter_block(result, style.color);
+  if (!result.profiles.empty())
+    out += heading("Profile likelihoods", style.color) + profile_block(result.profiles, style.color);
   out += fit_block(result, scan, style.color);
   if (result.diagnostics) {
     out += heading("Misfit", style.color) + misfit_block(*result.diagnostics, scan, style.color);

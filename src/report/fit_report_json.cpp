@@ -6,6 +6,7 @@
 #include "report/fit_report.h"
 #include "report/fit_rows.h"
 #include "report/misfit_report.h"
+#include "report/profile_report.h"
 
 namespace goniofit {
 namespace {
@@ -141,6 +142,7 @@ std::string fit_report_json(const FitResult& result, const Scan& scan) {
                    {"polish_iterations", result.polish_iterations},
                    {"seconds", result.seconds}};
   out["diagnostics"] = result.diagnostics ? misfit_json(*result.diagnostics, scan) : Json(nullptr);
+  if (!result.profiles.empty()) out["profiles"] = profiles_json(result.profiles);
   out["selection"] = selection_json(result.selection);
   out["reflectance"] = reflectance_json(result);
   out["notes"] = result.notes;

@@ -195,6 +195,13 @@ TEST_F(BadInput, FlagsThatContradictTheScan) {
       {{"--plot", "p.pdf"}, "p.pdf: a plot is written as .svg or .png"},
       {{"--plot", "-"}, "--plot"},
       {{"--plot", "p.svg", "--plot-axis", "cubic"}, "--plot-axis: \"cubic\", expected auto, linear or log"},
+      {{"--profile", "roughness"}, "roughness is no parameter that this fit leaves free, expected some of slope"},
+      {{"--profile", "slope,"}, "--profile"},
+      {{"--profile", "s.csv"}, "--profile: \"s.csv\" is a file, expected names of parameters"},
+      {{"--profile-plot", "p.pdf"}, "p.pdf: a plot is written as .svg or .png"},
+      {{"--profile-plot", "-"}, "--profile-plot"},
+      {{"--residual-plot", "r.jpeg"}, "r.jpeg: a plot is written as .svg or .png"},
+      {{"--residual-plot", "-"}, "--residual-plot"},
       {{"--optical-constants", "missing.csv"}, "missing.csv"},
       {{"-o", "-", "--json"}, "cannot both go to standard output"},
   };

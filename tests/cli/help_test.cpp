@@ -28,6 +28,12 @@ TEST(Help, EveryCommandHasAnExampleOfItself) {
   }
 }
 
+TEST(Help, FitNamesWhatItSaysBesideTheReport) {
+  const Outcome help = goniofit({"fit", "--help"});
+  for (const char* const flag : {"--profile ", "--profile-plot ", "--residual-plot "})
+    EXPECT_NE(help.out.find(flag), std::string::npos) << help.out;
+}
+
 TEST(Help, Version) {
   const Outcome version = goniofit({"--version"});
   EXPECT_EQ(version.status, 0);

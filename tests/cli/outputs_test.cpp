@@ -1,5 +1,7 @@
 // Outputs are whole or not there, whatever goes wrong; inputs and earlier outputs survive.
 
+#include <nlohmann/json.hpp>
+
 #include "cli/program_test.h"
 
 namespace goniofit::test {
@@ -139,6 +141,23 @@ TEST_F(Outputs, NoGnuplotIsASystemFailureAfterTheMaterialIsSafe) {
   EXPECT_NE(outcome.err.find("gnuplot is not installed"), std::string::npos);
   EXPECT_EQ(read_material(folder_ / "fitted.json").channels.size(), 3U);
   EXPECT_FALSE(std::filesystem::exists(folder_ / "p.svg"));
+}
+
+TEST_F(Outputs, ProfilesAndResiduals) {
+  const Outcome fitted = run_here({"fit", "scan.csv", "--components", "dd,uds", "--profile", "slope,R.k_dd", "--json",
+                                   "-o", "fitted.json", "--profile-plot", "p.svg", "--residual-plot", "r.png"});
+  ASSERT_EQ(fitted.status, 0) << fitted.err;
+  const auto profiles = nlohmann::json::parse(fitted.out).at("profiles");
+  ASSERT_EQ(profiles.size(), 2U);
+  EXPECT_EQ(profiles[0].at("name"), "slope");
+  EXPECT_EQ(profiles[1].at("channel"), "R");
+  EXPECT_GE(profiles[0].at("points").size(), 7U);
+  const Interval slope = read_material(folder_ / "fitted.json").fit->interval_95.at("slope");
+  EXPECT_EQ(profiles[0].at("interval_95"), (nlohmann::json{slope.lower, slope.upper}));
+  EXPECT_NE(content("p.svg").find("R.k_dd"), std::string::npos);
+  EXPECT_EQ(content("r.png").substr(1, 3), "PNG");
+  const Outcome text = run_here({"fit", "scan.csv", "--components", "dd,uds", "--profile"});
+  EXPECT_NE(text.out.find("95 % by profile"), std::string::npos) << text.out;
 }
 
 TEST_F(Outputs, DashIsStandardOutput) {

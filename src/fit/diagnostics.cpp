@@ -7,6 +7,7 @@
 #include "brdf/evaluator.h"
 #include "brdf/surface_shape.h"
 #include "fit/fit_spread.h"
+#include "fit/loss.h"
 #include "fit/noise_model.h"
 #include "fit/verdict.h"
 #include "geometry/angles.h"
@@ -85,6 +86,10 @@ class Diagnosis {
   [[nodiscard]] double noise_floor(std::size_t c) const;
   [[nodiscard]] std::optional<double> reciprocity(std::size_t c) const;
   [[nodiscard]] double value(std::size_t i, std::size_t c) const { return scan_.channels[c].values[rows_[i]]; }
+  [[nodiscard]] bool counts(std::size_t i, std::size_t c) const {
+    return !options_.used || options_.used->left_out.empty() || options_.used->left_out[c].empty() ||
+           !options_.used->left_out[c][i];
+  }
   [[nodiscard]] double fitted(std::size_t i, std::size_t c) const { return fitted_[i * scan_.channels.size() + c]; }
   [[nodiscard]] double open(std::size_t i, std::size_t c) const { return open_[i * scan_.channels.size() + c]; }
   [[nodiscard]] double floor(std::size_t i, std::size_t c) const {
@@ -108,14 +113,16 @@ class Diagnosis {
 };
 
 void Diagnosis::choose_rows() {
-  for (std::size_t row = 0; row < scan_.size(); ++row) {
-    const double theta = std::max(scan_.theta_i_deg[row], scan_.theta_r_deg[row]);
-    if (theta >= 90.0 || theta > options_.max_theta_deg) continue;
+  Rows rows;
+  for (std::size_t row = 0; row < scan_.size() && !options_.used; ++row) {
+    if (std::max(scan_.theta_i_deg[row], scan_.theta_r_deg[row]) < 90.0) rows.push_back(row);
+  }
+  for (const std::size_t row : options_.used ? options_.used->rows : rows) {
     const Pair pair = make_pair(scan_.angles(row));
     place_[row] = rows_.size();
     rows_.push_back(row);
     pairs_.push_back(pair);
-    weight_.push_back(options_.weight == Weight::cosine ? pair.cos_i : 1.0);
+    weight_.push_back(has_cosine(options_.weight) ? pair.cos_i : 1.0);
     region_.push_back(region_of(scan_, row, pair));
   }
 }
@@ -158,6 +165,7 @@ std::optional<double> Diagnosis::reciprocity(std::size_t c) const {
 void Diagnosis::add_misfit(std::size_t c) {
   std::array<Sums, region_count> regions;
   for (std::size_t i = 0; i < rows_.size(); ++i) {
+    if (!counts(i, c)) continue;
     regions[static_cast<std::size_t>(region_[i])].add(weight_[i], value(i, c), fitted(i, c), floor(i, c), open(i, c));
   }
   Sums channel;
@@ -174,7 +182,7 @@ void Diagnosis::add_runs(std::size_t c) {
     residuals.clear();
     for (const std::size_t row : line) {
       const std::size_t i = place_[row];
-      if (i == unused || in_mirror_cone(pairs_[i], material_.solid_angle_sr)) continue;
+      if (i == unused || !counts(i, c) || in_mirror_cone(pairs_[i], material_.solid_angle_sr)) continue;
       const double residual = value(i, c) - fitted(i, c);
       if (std::fabs(residual) > open(i, c)) residuals.push_back(residual);
     }
@@ -183,23 +191,25 @@ void Diagnosis::add_runs(std::size_t c) {
 }
 
 void Diagnosis::add_noise(std::size_t c) {
-  const auto n = static_cast<Eigen::Index>(rows_.size());
-  Eigen::VectorXd model(n);
-  Eigen::VectorXd residuals(n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    model[i] = fitted(static_cast<std::size_t>(i), c);
-    residuals[i] = value(static_cast<std::size_t>(i), c) - model[i];
+  std::vector<double> model;
+  std::vector<double> residuals;
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    if (!counts(i, c)) continue;
+    model.push_back(fitted(i, c));
+    residuals.push_back(value(i, c) - fitted(i, c));
   }
-  const Noise noise = estimate_noise(model, residuals);
+  const auto n = static_cast<Eigen::Index>(model.size());
+  const Noise noise = estimate_noise(Eigen::Map<const Eigen::VectorXd>(model.data(), n),
+                                     Eigen::Map<const Eigen::VectorXd>(residuals.data(), n));
   out_.channels[c].residuals = noise;
   for (std::size_t i = 0; i < rows_.size(); ++i) {
-    const auto at = static_cast<Eigen::Index>(i);
-    const double size = std::fabs(residuals[at]);
-    const double sds = quotient(size, noise.sd(model[at]));
-    const double larger = std::max(std::fabs(value(i, c)), model[at]);
+    if (!counts(i, c)) continue;
+    const double size = std::fabs(value(i, c) - fitted(i, c));
+    const double sds = quotient(size, noise.sd(fitted(i, c)));
+    const double larger = std::max(std::fabs(value(i, c)), fitted(i, c));
     if (sds <= outlier_sds || size <= negligible_misfit * larger) continue;
     ++out_.outlier_count;
-    out_.outliers.push_back({rows_[i], c, value(i, c), model[at], sds});
+    out_.outliers.push_back({rows_[i], c, value(i, c), fitted(i, c), sds});
   }
 }
 
@@ -207,7 +217,9 @@ void Diagnosis::add_noise(std::size_t c) {
 // most of the readings are alike the surface is.
 void Diagnosis::add_counts(std::size_t c) {
   std::vector<double> values;
-  for (std::size_t i = 0; i < rows_.size(); ++i) values.push_back(value(i, c));
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    if (counts(i, c)) values.push_back(value(i, c));
+  }
   out_.channels[c].clipping = clipping_of(values);
 }
 
@@ -242,6 +254,7 @@ void Diagnosis::add_brightness() {
   double total = 0.0;
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     for (std::size_t c = 0; c < scan_.channels.size(); ++c) {
+      if (!counts(i, c)) continue;
       squares.push_back(weight_[i] * value(i, c) * value(i, c));
       total += squares.back();
       if (value(i, c) > 0.0) positive.push_back(value(i, c));
@@ -261,7 +274,7 @@ void Diagnosis::add_chi_square() {
   for (std::size_t c = 0; c < scan_.channels.size(); ++c) {
     const std::vector<double>& u = scan_.channels[c].u;
     for (std::size_t i = 0; !u.empty() && i < rows_.size(); ++i) {
-      if (!(u[rows_[i]] > 0.0)) continue;
+      if (!(u[rows_[i]] > 0.0) || !counts(i, c)) continue;
       sum += std::pow((value(i, c) - fitted(i, c)) / u[rows_[i]], 2);
       ++count;
     }

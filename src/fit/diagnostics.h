@@ -91,9 +91,15 @@ struct FitDiagnostics {
   std::vector<std::string> findings;           ///< the verdict's reason first; a sentence each
 };
 
+/// Readings that a fit used.
+struct UsedReadings {
+  std::vector<std::size_t> rows;               ///< of the scan
+  std::vector<std::vector<bool>> left_out{};  ///< by channel and row in `rows`; empty where none of a channel is
+};
+
 struct DiagnosticsOptions {
   Weight weight = Weight::cosine;
-  double max_theta_deg = 90.0;
+  std::optional<UsedReadings> used{};  ///< else all with theta below 90 degrees
   std::size_t free_parameters = 0;  ///< that were fitted, for the degrees of freedom
 };
 

@@ -99,6 +99,17 @@ bool has_values(const Material& m) {
   return std::all_of(m.parameters.begin(), m.parameters.end(), [](const auto& p) { return p.second.has_value(); });
 }
 
+UsedReadings used_readings(const Problem& problem) {
+  UsedReadings used{problem.rows, {}};
+  for (const ProblemChannel& c : problem.channels) {
+    std::vector<bool>& out = used.left_out.emplace_back();
+    for (std::size_t i = 0; c.used.size() > 0 && i < problem.readings(); ++i) {
+      out.push_back(c.used[static_cast<Eigen::Index>(i)] == 0.0);
+    }
+  }
+  return used;
+}
+
 // Those that the scan determined.
 std::size_t free_parameters(const FitResult& r) {
   const auto is_free = [](const FittedParameter& p) {
@@ -127,9 +138,10 @@ FitResult fit(const Scan& scan, const FitSettings& settings) {
     result.selection = std::move(selection);
   }
   if (has_values(result.material)) {
-    result.diagnostics = diagnose(
-        scan, result.material,
-        {.weight = result.weight, .max_theta_deg = settings.max_theta_deg, .free_parameters = free_parameters(result)});
+    result.diagnostics = diagnose(scan, result.material,
+                                  {.weight = result.weight,
+                                   .used = used_readings(*fitted.problem),
+                                   .free_parameters = free_parameters(result)});
   }
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;

@@ -82,12 +82,12 @@ TEST(Diagnostics, SizesAreThoseOfTheDefinitions) {
   EXPECT_TRUE(says(d, "one incidence angle only (60°)"));
 }
 
-TEST(Diagnostics, WeightsAndTheLargestThetaAreTheFits) {
+TEST(Diagnostics, WeightsAndReadingsUsedAreTheFits) {
   const Scan scan = in_plane_scan({0.0, 60.0}, 85.0, [](double i, double) { return i > 0.0 ? 2.0 / pi : 1.0 / pi; });
   // r = 0 at 0°, 1/pi at 60°, whose cosine is 1/2.
   EXPECT_NEAR(diagnose(scan, lambert({1.0}), {.weight = Weight::cosine}).misfit.peak, std::sqrt(0.5 / 3.0), 1e-12);
   EXPECT_NEAR(diagnose(scan, lambert({1.0}), {.weight = Weight::none}).misfit.peak, std::sqrt(1.0 / 5.0), 1e-12);
-  EXPECT_EQ(diagnose(scan, lambert({1.0}), {.max_theta_deg = 50.0}).readings, 1U);
+  EXPECT_EQ(diagnose(scan, lambert({1.0}), {.used = UsedReadings{{0}}}).readings, 1U);
 }
 
 TEST(Diagnostics, RegionsPartTheHemisphere) {

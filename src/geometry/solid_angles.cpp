@@ -1,6 +1,7 @@
 #include "geometry/solid_angles.h"
 
 #include <algorithm>
+#include <array>
 #include <boost/geometry.hpp>
 #include <boost/geometry/index/rtree.hpp>
 #include <cmath>
@@ -9,93 +10,119 @@
 #include <map>
 #include <utility>
 
-#include "geometry/angles.h"
-
 namespace goniofit {
 
 namespace {
 
 namespace bg = boost::geometry;
 namespace bgi = boost::geometry::index;
-using Point = bg::model::d2::point_xy<double>;
-using Entry = std::pair<Point, std::size_t>;
+using Point = bg::model::point<double, 3, bg::cs::cartesian>;
+using Tree = bgi::rtree<std::pair<Point, std::size_t>, bgi::quadratic<16>>;
 
-// The hemisphere becomes the disc of radius sqrt 2, of the same area.
-Point projected(const Direction& v) noexcept {
-  const double scale = std::sqrt(2.0 / (1.0 + v.z));
-  return {scale * v.x, scale * v.y};
+Point point_of(const Direction& v) { return {v.x, v.y, v.z}; }
+
+double triple(const Direction& a, const Direction& b, const Direction& c) noexcept {
+  return a.x * (b.y * c.z - b.z * c.y) + a.y * (b.z * c.x - b.x * c.z) + a.z * (b.x * c.y - b.y * c.x);
 }
 
-// A polygon of the disc's own area.
-std::vector<Point> disc() {
-  constexpr int corners = 360;
-  const double radius = std::sqrt(2.0 * pi / (0.5 * corners * std::sin(2.0 * pi / corners)));
-  std::vector<Point> polygon;
-  for (int i = 0; i < corners; ++i) {
-    polygon.emplace_back(radius * std::cos(2.0 * pi * i / corners), radius * std::sin(2.0 * pi * i / corners));
-  }
-  return polygon;
+using Polygon = std::vector<Direction>;  // corners; sides are great circles of less than half a turn
+
+Direction between(const Direction& p, const Direction& q, double t) {
+  const Direction v{p.x + t * (q.x - p.x), p.y + t * (q.y - p.y), p.z + t * (q.z - p.z)};
+  const double length = std::hypot(v.x, v.y, v.z);
+  return {v.x / length, v.y / length, v.z / length};
 }
 
-// What of the convex polygon is nearer to a than to b.
-std::vector<Point> nearer(const std::vector<Point>& polygon, const Point& a, const Point& b) {
-  const double nx = b.x() - a.x();
-  const double ny = b.y() - a.y();
-  const double middle = 0.5 * (nx * (a.x() + b.x()) + ny * (a.y() + b.y()));
-  const auto beyond = [&](const Point& p) { return nx * p.x() + ny * p.y() - middle; };
-  std::vector<Point> out;
+// What of a convex polygon is on the side of a great circle that `pole` is on.
+Polygon part_beside(const Polygon& polygon, const Direction& pole) {
+  Polygon kept;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Point& p = polygon[i];
-    const Point& q = polygon[(i + 1) % polygon.size()];
-    const double dp = beyond(p);
-    const double dq = beyond(q);
-    if (dp <= 0.0) out.push_back(p);
-    if ((dp < 0.0) != (dq < 0.0) && dp != dq) {
-      const double t = dp / (dp - dq);
-      out.emplace_back(p.x() + t * (q.x() - p.x()), p.y() + t * (q.y() - p.y()));
+    const Direction& p = polygon[i];
+    const Direction& q = polygon[(i + 1) % polygon.size()];
+    const double at_p = dot(pole, p);
+    const double at_q = dot(pole, q);
+    if (at_p >= 0.0) kept.push_back(p);
+    if ((at_p > 0.0 && at_q < 0.0) || (at_p < 0.0 && at_q > 0.0)) kept.push_back(between(p, q, at_p / (at_p - at_q)));
+  }
+  return kept;
+}
+
+// By the triangles at its first corner; tan(half the area of one) after van Oosterom & Strackee 1983.
+double area(const Polygon& polygon) {
+  double sum = 0.0;
+  for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
+    const Direction& a = polygon.front();
+    const Direction& b = polygon[i];
+    const Direction& c = polygon[i + 1];
+    sum += 2.0 * std::atan2(std::fabs(triple(a, b, c)), 1.0 + dot(a, b) + dot(b, c) + dot(c, a));
+  }
+  return sum;
+}
+
+// What is nearest to one direction: in four parts, a quarter of the hemisphere each, whose sides have two ends that
+// are no antipodes.
+class Cell {
+ public:
+  explicit Cell(const Direction& centre) : centre_(centre) {
+    constexpr Direction up{0.0, 0.0, 1.0}, east{1.0, 0.0, 0.0}, north{0.0, 1.0, 0.0}, west{-1.0, 0.0, 0.0},
+        south{0.0, -1.0, 0.0};
+    parts_ = {{{up, east, north}, {up, north, west}, {up, west, south}, {up, south, east}}};
+  }
+
+  /// Keeps what is nearer to the cell's direction than to `other`.
+  void cut_off(const Direction& other) {
+    for (Polygon& part : parts_) {
+      part = part_beside(part, {centre_.x - other.x, centre_.y - other.y, centre_.z - other.z});
     }
   }
-  return out;
-}
-
-double area(const std::vector<Point>& polygon) noexcept {
-  double twice = 0.0;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Point& p = polygon[i];
-    const Point& q = polygon[(i + 1) % polygon.size()];
-    twice += p.x() * q.y() - q.x() * p.y();
+  /// Angle from the direction to the farthest corner.
+  [[nodiscard]] double reach() const {
+    double least = 1.0;
+    for (const Polygon& part : parts_) {
+      for (const Direction& p : part) least = std::min(least, dot(centre_, p));
+    }
+    return std::acos(std::max(-1.0, least));
   }
-  return 0.5 * std::fabs(twice);
-}
-
-double cell_area(const bgi::rtree<Entry, bgi::quadratic<16>>& tree, const Point& at, std::vector<Point> cell) {
-  double reach = 4.0;  // of the farthest corner
-  for (auto it = tree.qbegin(bgi::nearest(at, static_cast<unsigned>(tree.size()))); it != tree.qend(); ++it) {
-    const double distance = bg::distance(at, it->first);
-    if (distance == 0.0) continue;
-    if (distance > 2.0 * reach) break;  // its bisector passes the cell by, and so do all that follow
-    cell = nearer(cell, at, it->first);
-    reach = 0.0;
-    for (const Point& corner : cell) reach = std::max(reach, bg::distance(at, corner));
+  [[nodiscard]] double solid_angle() const {
+    double sum = 0.0;
+    for (const Polygon& part : parts_) sum += area(part);
+    return sum;
   }
-  return area(cell);
+
+ private:
+  Direction centre_;
+  std::array<Polygon, 4> parts_;
+};
+
+double cell_size(const Tree& tree, const std::vector<Direction>& directions, const Direction& own) {
+  Cell cell(own);
+  double reach = cell.reach();
+  for (auto it = tree.qbegin(bgi::nearest(point_of(own), static_cast<unsigned>(tree.size()))); it != tree.qend();
+       ++it) {
+    const Direction& other = directions[it->second];
+    const double chord = std::hypot(own.x - other.x, own.y - other.y, own.z - other.z);
+    if (chord == 0.0) continue;
+    if (2.0 * std::asin(std::min(1.0, 0.5 * chord)) > 2.0 * reach)
+      break;  // its bisector passes the cell by, and the rest's
+    cell.cut_off(other);
+    reach = cell.reach();
+  }
+  return cell.solid_angle();
 }
 
 }  // namespace
 
 std::vector<double> solid_angles(const std::vector<Direction>& directions) {
-  std::map<std::pair<double, double>, std::vector<std::size_t>> at;
+  std::map<std::array<double, 3>, std::vector<std::size_t>> at;
   for (std::size_t i = 0; i < directions.size(); ++i) {
-    const Point p = projected(directions[i]);
-    at[{p.x(), p.y()}].push_back(i);
+    at[{directions[i].x, directions[i].y, directions[i].z}].push_back(i);
   }
-  std::vector<Entry> entries;
-  for (const auto& [xy, same] : at) entries.emplace_back(Point(xy.first, xy.second), same.front());
-  const bgi::rtree<Entry, bgi::quadratic<16>> tree(entries);
-  const std::vector<Point> whole = disc();
+  std::vector<Tree::value_type> entries;
+  for (const auto& [xyz, same] : at) entries.emplace_back(point_of(directions[same.front()]), same.front());
+  const Tree tree(entries);
   std::vector<double> out(directions.size());
-  for (const auto& [xy, same] : at) {
-    const double own = cell_area(tree, Point(xy.first, xy.second), whole);
+  for (const auto& [xyz, same] : at) {
+    const double own = cell_size(tree, directions, directions[same.front()]);
     for (const std::size_t i : same) out[i] = own / static_cast<double>(same.size());
   }
   return out;

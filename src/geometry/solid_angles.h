@@ -8,8 +8,7 @@
 namespace goniofit {
 
 /// The part of the hemisphere that lies nearer to each direction than to any other, in steradians; their sum is 2 pi.
-/// Computed as Voronoi cells in Lambert's equal-area projection, which keeps areas and, between neighbours, what is
-/// nearest. Directions that coincide share a cell evenly. O(n log n) where neighbours are alike in number.
+/// Directions that coincide share a cell evenly. O(n log n) where neighbours are alike in number.
 [[nodiscard]] std::vector<double> solid_angles(const std::vector<Direction>& directions);
 
 /// The same along an arc: half of the way to both neighbours, in the unit of the angles; at the ends the outer half is

@@ -186,11 +186,11 @@ std::string panel_commands(const std::vector<Group>& groups, const Panel& panel,
          fmt::format("set arrow from {0:.6g}, graph 0 to {0:.6g}, graph 1 nohead back lc rgb '#808080' dt 2\n",
                      panel.nominal);
   out += bands(groups, panel);
-  if (index > 0) out += "unset label\nset format y ''\n";
+  if (index > 0) out += "unset label\nunset ytics\n";
   for (const char* const color : {"#0072B2", "#D55E00"}) {
     const int missed = color == std::string_view("#D55E00") ? 1 : 0;
     out += fmt::format(
-        "{} $points{} using 1:($5 == {} ? $2 : 1/0):3:4 with xerrorbars lc rgb '{}' lw 1.3 pt 7 ps 0.35 "
+        "{} $points{} using 1:($5 == {} ? $2 : 1/0):3:4 with xerrorbars lc rgb '{}' lw 1.3 pt 7 ps 0.5 "
         "notitle",
         missed == 0 ? "plot" : ",", index, missed, color);
   }

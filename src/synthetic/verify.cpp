@@ -73,7 +73,8 @@ Trial run_trial(const Recipe& recipe, const Material& truth, std::uint64_t seed,
   // What "auto" chose is judged by the parameters it found; the minimum, among the effects it chose.
   if (settings.model == surface_model && !settings.components) settings.components = result.material.components;
   if (const std::optional<Material> start = start_of(truth, scan, settings.model)) {
-    const double reachable = polish_from(scan, settings, *start).loss;
+    // To tell one minimum from another, which differ by far more.
+    const double reachable = polish_from(scan, settings, *start, prediction_accuracy).loss;
     failed = failed || loss_ratio(scan, result.loss, reachable) > wrong_minimum_ratio;
   }
   return {std::move(result.parameters), failed};

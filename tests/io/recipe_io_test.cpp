@@ -330,7 +330,7 @@ const std::vector<BadRecipe> bad_recipes{
     {"FailureRateAboveOne", "verify = {truth = \"t.json\", bounds = {failure_rate = 2}}",
      ": /verify/bounds/failure_rate: is 2, expected a number in [0, 1]"},
     {"KnownOfWrongType", "verify = {truth = \"t.json\", noise = {known = 1}}",
-     ": /verify/noise/known: is an integer, expected a boolean"},
+     ": /verify/noise/known: is an integer, expected true or false"},
     {"VerifyOfWrongType", "verify = true", ": /verify: is a boolean, expected a table"},
 };
 

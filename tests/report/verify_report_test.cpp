@@ -97,6 +97,8 @@ TEST(VerifyMarkdown, PutsTheChannelsOfAMissTogether) {
   const std::string text = verify_markdown({run});
   EXPECT_NE(text.find("| sound | hemisphere, 2 % | 0 of 100 | "), std::string::npos) << text;
   EXPECT_NE(text.find("| over\\|confident | hemisphere, 2 % + 0.001 sr⁻¹, u known |"), std::string::npos) << text;
+  EXPECT_NE(text.find("| 3 (R.k_uds) | 3 of "), std::string::npos) << text;
+  EXPECT_NE(text.find("| all | 0 of "), std::string::npos) << text;
   EXPECT_NE(text.find("| k_dd of R, G: coverage_95 | 70.0 to 72.0 % | 93.0 to 97.0 % |"), std::string::npos) << text;
   EXPECT_NE(text.find("| k_dd of R: coverage_68 | 40.0 % | 64.0 to 73.0 % |"), std::string::npos) << text;
 }
@@ -109,6 +111,7 @@ TEST(VerifyMarkdown, OfASoundRunHasNoSecondTable) {
   EXPECT_TRUE((VerifyRunReport{sound}).passed());
   const RandomRecoveryReport wrong{.materials = 1, .wrong_minima = 1, .failures = {}};
   EXPECT_FALSE((VerifyRunReport{sound, &wrong}).passed());
+  EXPECT_NE(verify_markdown({{}, &wrong}).find("Random materials: 1 of 1 in a wrong minimum"), std::string::npos);
 }
 
 std::string content(const std::filesystem::path& path) {

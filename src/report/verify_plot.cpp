@@ -168,7 +168,7 @@ std::string heading(const VerifyRunReport& run, const Layout& layout) {
       "{:.5f},{:.5f} center noenhanced font '{}'\n",
       trials, middle, layout.y(20.0), layout.font_text(16.0));
   return out + fmt::format(
-                   "set label 'bars: exact 95 % limits; green: allowed; orange: misses it ({} of {} tests, all "
+                   "set label 'bars: exact 95 % limits; green: allowed; orange: missed ({} of {} tests, all "
                    "together at {:g} %); one bar a channel' at screen {:.5f},{:.5f} center noenhanced font '{}' "
                    "textcolor rgb '#606060'\n",
                    run.missed(), run.tests(), 100.0 * run.level, middle, layout.y(44.0), layout.font_text(small_font));

@@ -17,8 +17,8 @@ set(GONIOFIT_PUBLIC_HEADERS
   scan/scan.h
   fit/settings.h fit/fit.h fit/residual_tests.h fit/diagnostics.h fit/selection.h fit/comparison.h
   io/scan_reader.h io/material_io.h io/recipe_io.h io/optical_constants.h io/exr_table.h
-  synthetic/simulate.h synthetic/verify.h
-  report/fit_report.h report/comparison_report.h report/plot.h)
+  synthetic/simulate.h synthetic/verify.h synthetic/judgement.h synthetic/recovery.h synthetic/exact_tests.h
+  report/fit_report.h report/comparison_report.h report/verify_report.h report/plot.h)
 foreach(header IN LISTS GONIOFIT_PUBLIC_HEADERS)
   get_filename_component(room ${header} DIRECTORY)
   install(FILES ${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/goniofit/${room})

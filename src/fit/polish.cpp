@@ -358,7 +358,7 @@ Polished polish(const Problem& problem, const FitPoint& start, double tolerance)
   return result;
 }
 
-PolishOutcome polish_from(const Scan& scan, const FitSettings& settings, const Material& start) {
+PolishOutcome polish_from(const Scan& scan, const FitSettings& settings, const Material& start, double tolerance) {
   const Problem problem(scan, settings);
   FitPoint point;
   Surface surface = start.surface;
@@ -381,7 +381,7 @@ PolishOutcome polish_from(const Scan& scan, const FitSettings& settings, const M
     if (problem.free_optics == FreeOptics::f0) point.optics.push_back(start.channels[c].normal_reflectance());
     if (problem.free_optics == FreeOptics::n) point.optics.push_back(start.channels[c].n.value_or(1.5));
   }
-  const Polished polished = polish(problem, point);
+  const Polished polished = polish(problem, point, tolerance);
   PolishOutcome out{polished.point.loss, polished.converged, {}};
   const Eigen::VectorXd end = problem.shape.at(polished.point.z.data());
   for (Eigen::Index i = 0; i < end.size(); ++i) {

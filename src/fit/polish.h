@@ -33,6 +33,7 @@ struct PolishOutcome {
   bool converged = false;
   std::map<std::string, double> shape;  ///< shape parameters by name
 };
-[[nodiscard]] PolishOutcome polish_from(const Scan& scan, const FitSettings& settings, const Material& start);
+[[nodiscard]] PolishOutcome polish_from(const Scan& scan, const FitSettings& settings, const Material& start,
+                                        double tolerance = result_accuracy);
 
 }  // namespace goniofit

@@ -78,14 +78,19 @@ struct Noise {
 
 enum class Sampling : std::uint8_t { incidence_plane, hemisphere };
 
-/// The [verify] table of a recipe.
+/// The [verify] table of a recipe. Of the bounds only those set are judged, apart from slope_bias and failure_rate.
 struct VerifySettings {
   std::filesystem::path truth;
   Noise noise{0.02, 0.0};
+  bool known_noise = false;  ///< simulated scans state the noise's standard deviation as their uncertainty
   Sampling sampling = Sampling::hemisphere;
   std::size_t trials = 200;
-  double slope_bias = 0.01;                              ///< largest relative bias of the slope that passes
-  std::optional<std::pair<double, double>> coverage_95;  ///< smallest and largest coverage that passes
+  double slope_bias = 0.01;  ///< largest relative bias of the slope that passes
+  /// Largest bias of any parameter, in units of its mean standard uncertainty.
+  std::optional<double> bias;
+  /// Smallest and largest coverage that passes.
+  std::optional<std::pair<double, double>> coverage_68, coverage_95;
+  double failure_rate = 0.0;  ///< largest part of fits that do not converge or end in a wrong minimum
 };
 
 struct Recipe {

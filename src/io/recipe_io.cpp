@@ -9,6 +9,7 @@
 #include "geometry/angles.h"
 #include "io/line_reader.h"
 #include "io/recipe_parameters.h"
+#include "io/recipe_verify.h"
 #include "io/tier_names.h"
 #include "io/toml_value.h"
 #include "support/error.h"
@@ -19,7 +20,6 @@ namespace goniofit {
 namespace {
 
 constexpr std::size_t largest_file = std::size_t{1} << 20U;
-constexpr std::int64_t most_trials = 1'000'000;
 
 std::filesystem::path beside(const Recipe& recipe, const TomlValue& value, const std::string& expected) {
   const std::string& text = value.text(expected);
@@ -182,54 +182,6 @@ void read_optics(const TomlValue& optics, Recipe& recipe) {
   if (constants) recipe.optical_constants = beside(recipe, *constants, "the path of a table of n and kappa");
 }
 
-Noise read_noise(const TomlValue& table) {
-  table.expect_keys({"relative", "additive"});
-  Noise noise{0.0, 0.0};
-  if (const auto relative = table.find("relative")) noise.relative = read_number(*relative, not_negative());
-  if (const auto additive = table.find("additive")) noise.additive = read_number(*additive, not_negative());
-  return noise;
-}
-
-Sampling read_sampling(const TomlValue& value) {
-  if (value.text() == "incidence-plane") return Sampling::incidence_plane;
-  if (value.text() == "hemisphere") return Sampling::hemisphere;
-  value.fail(in_quotes(value.text()) + " is not known, expected \"incidence-plane\" or \"hemisphere\"");
-}
-
-std::size_t read_trials(const TomlValue& value) {
-  const std::string expected = "a whole number from 1 to " + std::to_string(most_trials);
-  const std::int64_t trials = value.whole_number(expected);
-  if (trials < 1 || trials > most_trials) value.fail("is " + std::to_string(trials) + ", expected " + expected);
-  return static_cast<std::size_t>(trials);
-}
-
-std::pair<double, double> read_coverage(const TomlValue& array) {
-  const std::string expected = "[smallest, largest]";
-  std::vector<double> limits;
-  array.for_each_element(expected, [&](const TomlValue& v) { limits.push_back(read_number(v, unit_interval())); });
-  if (limits.size() != 2) array.fail("has " + std::to_string(limits.size()) + " numbers, expected " + expected);
-  if (limits[0] >= limits[1]) array.fail("is crossed, expected " + expected);
-  return {limits[0], limits[1]};
-}
-
-VerifySettings read_verify(const TomlValue& table, const Recipe& recipe) {
-  table.expect_keys({"truth", "noise", "sampling", "trials", "bounds"});
-  VerifySettings verify;
-  const auto truth = table.find("truth");
-  if (!truth)
-    throw key_error(table.source(), table.pointer() + "/truth", "is missing, expected the path of a material");
-  verify.truth = beside(recipe, *truth, "the path of a material");
-  if (const auto noise = table.find("noise")) verify.noise = read_noise(*noise);
-  if (const auto sampling = table.find("sampling")) verify.sampling = read_sampling(*sampling);
-  if (const auto trials = table.find("trials")) verify.trials = read_trials(*trials);
-  if (const auto bounds = table.find("bounds")) {
-    bounds->expect_keys({"slope_bias", "coverage_95"});
-    if (const auto bias = bounds->find("slope_bias")) verify.slope_bias = read_number(*bias, positive());
-    if (const auto coverage = bounds->find("coverage_95")) verify.coverage_95 = read_coverage(*coverage);
-  }
-  return verify;
-}
-
 Forms read_forms(const TomlValue& table) {
   table.expect_keys({"fs", "rough", "anisotropy"});
   Forms forms;
@@ -286,7 +238,7 @@ Recipe read_document(const TomlValue& document) {
   if (const auto seed = document.find("seed")) recipe.seed = read_seed(*seed);
   if (const auto optics = document.find("optics")) read_optics(*optics, recipe);
   if (const auto parameters = document.find("parameters")) read_parameters(*parameters, peer.get(), recipe);
-  if (const auto verify = document.find("verify")) recipe.verify = read_verify(*verify, recipe);
+  if (const auto verify = document.find("verify")) recipe.verify = read_verify(*verify, recipe.source);
   return recipe;
 }
 

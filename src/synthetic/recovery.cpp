@@ -2,10 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <utility>
-
-#include <fmt/format.h>
 
 #include "geometry/angles.h"
 
@@ -14,89 +11,48 @@ namespace {
 
 constexpr double z_68 = 1.0;
 constexpr double z_95 = 1.959963984540054;
-/// Standard errors that a single parameter's coverage may lie outside its bounds.
-constexpr double allowed_standard_errors = 3.0;
 
-struct Count {
-  std::size_t stated = 0, inside_68 = 0, inside_95 = 0;
-  [[nodiscard]] double fraction(std::size_t inside) const {
-    return stated == 0 ? 0.0 : static_cast<double>(inside) / static_cast<double>(stated);
-  }
-};
-
-Count count_inside(const ParameterTrials& trials) {
-  Count count;
-  for (const Estimate& e : trials.estimates) {
-    if (!e.u) continue;
-    const double distance = std::fabs(e.value - trials.truth);
-    ++count.stated;
-    if (distance <= z_68 * *e.u) ++count.inside_68;
-    if (distance <= z_95 * *e.u) ++count.inside_95;
-  }
-  return count;
-}
-
-std::optional<std::string> missed_coverage(const std::string& what, const Count& count,
-                                           std::pair<double, double> bounds, double standard_errors) {
-  if (count.stated == 0) return std::nullopt;
-  const auto n = static_cast<double>(count.stated);
-  const auto allowance = [&](double p) { return standard_errors * std::sqrt(p * (1.0 - p) / n); };
-  const double coverage = count.fraction(count.inside_95);
-  const auto [low, high] = bounds;
-  if (coverage >= low - allowance(low) && coverage <= high + allowance(high)) return std::nullopt;
-  return fmt::format("{}: the 95 % intervals contain the truth in {:.1f} % of {} cases, expected {:g} to {:g} %", what,
-                     100.0 * coverage, count.stated, 100.0 * low, 100.0 * high);
+// A stated interval knows of bounds and of few degrees of freedom; where there is none, a reader takes value ± z u.
+void count(Proportion& coverage, double truth, const std::optional<Interval>& stated, const Estimate& e, double z) {
+  if (!stated && !e.u) return;
+  const Interval interval = stated.value_or(Interval{e.value - z * e.u.value_or(0.0), e.value + z * e.u.value_or(0.0)});
+  ++coverage.of;
+  if (interval.lower <= truth && truth <= interval.upper) ++coverage.count;
 }
 
 }  // namespace
 
-Recovery recovery_of(const ParameterTrials& trials) {
-  Recovery r;
-  r.parameter = trials.parameter;
-  r.truth = trials.truth;
-  const auto n = static_cast<double>(trials.estimates.size());
-  for (const Estimate& e : trials.estimates) r.mean += e.value / n;
-  r.bias = r.mean - r.truth;
-  double squares = 0.0;
-  double sum_u = 0.0;
-  for (const Estimate& e : trials.estimates) {
-    squares += (e.value - r.mean) * (e.value - r.mean);
-    sum_u += e.u.value_or(0.0);
-  }
-  r.spread = trials.estimates.size() > 1 ? std::sqrt(squares / (n - 1.0)) : 0.0;
+Estimate estimate_of(const FittedParameter& p) { return {p.value.value(), p.u, p.interval_68, p.interval_95}; }
 
-  const Count count = count_inside(trials);
-  r.stated = count.stated;
-  r.mean_u = count.stated == 0 ? 0.0 : sum_u / static_cast<double>(count.stated);
-  r.coverage_68 = count.fraction(count.inside_68);
-  r.coverage_95 = count.fraction(count.inside_95);
-  return r;
+RecoveryTally::RecoveryTally(std::string parameter, double truth, bool truth_on_bound) {
+  recovery_.parameter = std::move(parameter);
+  recovery_.truth = truth;
+  recovery_.truth_on_bound = truth_on_bound;
 }
 
-std::vector<std::string> missed_bounds(const std::vector<ParameterTrials>& parameters, const VerifySettings& bounds) {
-  std::vector<std::string> missed;
-  Count pooled;
-  for (const ParameterTrials& p : parameters) {
-    if (p.parameter == "slope") {
-      const double bias = recovery_of(p).bias / p.truth;
-      if (!(std::fabs(bias) <= bounds.slope_bias)) {
-        missed.push_back(fmt::format("slope: the mean is {:+.3g} % off the truth, at most {:g} % allowed", 100.0 * bias,
-                                     100.0 * bounds.slope_bias));
-      }
-    }
-    if (!bounds.coverage_95 || p.truth_on_bound) continue;
-    const Count count = count_inside(p);
-    pooled.stated += count.stated;
-    pooled.inside_95 += count.inside_95;
-    if (auto miss = missed_coverage(p.parameter, count, *bounds.coverage_95, allowed_standard_errors)) {
-      missed.push_back(*std::move(miss));
-    }
+void RecoveryTally::add(const Estimate& e) {
+  Recovery& r = recovery_;
+  ++r.determined;
+  const double before = e.value - r.mean;
+  r.mean += before / static_cast<double>(r.determined);
+  squares_ += before * (e.value - r.mean);
+  if (e.u) {
+    ++r.stated_u;
+    r.mean_u += (*e.u - r.mean_u) / static_cast<double>(r.stated_u);
   }
-  if (bounds.coverage_95) {
-    if (auto miss = missed_coverage("all parameters", pooled, *bounds.coverage_95, 0.0))
-      missed.push_back(*std::move(miss));
+  count(r.coverage_68, r.truth, e.interval_68, e, z_68);
+  count(r.coverage_95, r.truth, e.interval_95, e, z_95);
+}
+
+Recovery RecoveryTally::result() const {
+  Recovery r = recovery_;
+  const auto n = static_cast<double>(r.determined);
+  r.bias = r.mean - r.truth;
+  if (r.determined > 1) {
+    r.spread = std::sqrt(squares_ / (n - 1.0));
+    r.bias_error = r.spread / std::sqrt(n);
   }
-  return missed;
+  return r;
 }
 
 double loss_ratio(const Scan& scan, double loss, double reachable) {

@@ -9,37 +9,26 @@
 
 #include "../fit/fit.h"
 #include "../fit/settings.h"
+#include "judgement.h"
 
 namespace goniofit {
 
 /// Told after each trial how many of how many are done; one call at a time, from any of the threads. Must not throw.
 using Progress = std::function<void(std::size_t done, std::size_t total)>;
 
-/// Recovery of one parameter over the trials.
-struct Recovery {
-  std::string parameter;  ///< "slope", "R.k_dd"
-  double truth = 0.0;
-  double mean = 0.0;
-  double bias = 0.0;                            ///< mean - truth
-  double spread = 0.0;                          ///< standard deviation over the trials
-  double mean_u = 0.0;                          ///< mean stated standard uncertainty, over the trials that state one
-  double coverage_68 = 0.0, coverage_95 = 0.0;  ///< of the trials that state one
-  std::size_t stated = 0;                       ///< trials that state an uncertainty (not on a bound)
+/// How trials are run. The defaults are what a user wants; a test verifies a fitter of its own.
+struct VerifyRun {
+  std::size_t threads = 0;  ///< 0: as many as the machine has
+  Progress progress{};
+  std::function<FitResult(const Scan&, const FitSettings&)> fitter = fit;
 };
 
-struct VerifyReport {
-  std::string name;
-  std::size_t trials = 0, failures = 0;  ///< failures: not converged, or a wrong minimum
-  std::vector<Recovery> parameters;
-  std::vector<std::string> missed;  ///< the bounds that were missed, in words; empty means it passed
-};
-
-/// Runs a recipe's [verify] table. `trials` 0 takes the recipe's number. Threads across trials; same result for any
-/// number of them. Bounds: the slope's bias and the pooled coverage are held to theirs as they are; a single
-/// parameter's coverage may be three of its standard errors outside; failures are always a miss. Throws Error
+/// Runs a recipe's [verify] table and judges it alone, at default_level; judge() several reports of one run together.
+/// `trials` 0 takes the recipe's number. Same result for any number of threads; memory does not grow with the trials.
+/// The noise is a function of seed, recipe name and trial, so that recipes of one run do not share it. Throws Error
 /// (bad_input) where the recipe has no [verify] table or its truth cannot be read.
 [[nodiscard]] VerifyReport verify_recipe(const Recipe& recipe, std::size_t trials, std::uint64_t seed,
-                                         const Progress& progress = {});
+                                         const VerifyRun& run = {});
 
 struct RandomRecoveryReport {
   std::size_t materials = 0;

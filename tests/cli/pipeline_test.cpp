@@ -353,6 +353,39 @@ TEST_F(Pipeline, VerifyFailsWhereABoundIsMissed) {
   EXPECT_FALSE(json.at("recipes").at(1).at("missed").empty());
 }
 
+TEST_F(Pipeline, VerifyIsAFunctionOfTheSeedNotOfThreads) {
+  add("truth.json", to_json(garnet_red_paint_13()));
+  add("r.toml",
+      "components = [\"dd\", \"uds\", \"fs\"]\n[optics]\nn = 1.7\n[verify]\ntruth = \"truth.json\"\n"
+      "sampling = \"incidence-plane\"\ntrials = 4\nnoise = {relative = 0.02, additive = 1e-3, known = true}\n"
+      "bounds = {bias = 3.0, coverage_68 = [0.01, 0.99], coverage_95 = [0.01, 1.0]}\n");
+  const auto json = [this](const std::string& threads, const std::string& seed) {
+    return run_here({"verify", "r.toml", "--threads", threads, "--seed", seed, "--json"}).out;
+  };
+  EXPECT_EQ(json("1", "5"), json("2", "5"));
+  EXPECT_NE(json("1", "5"), json("1", "6"));
+  const auto parsed = nlohmann::json::parse(json("1", "5"));
+  const auto& recipe = parsed.at("recipes").at(0);
+  EXPECT_EQ(recipe.at("seed"), 5);
+  EXPECT_TRUE(recipe.at("noise").at("known"));
+  EXPECT_EQ(parsed.at("level"), 0.05);
+  EXPECT_GT(parsed.at("tests"), recipe.at("parameters").size());
+  EXPECT_EQ(recipe.at("parameters").at(0).at("coverage_95_limits").size(), 2U);
+}
+
+TEST_F(Pipeline, VerifyWritesAPageAndAPlot) {
+  add("truth.json", to_json(garnet_red_paint_13()));
+  add("r.toml",
+      "components = [\"dd\", \"uds\", \"fs\"]\n[optics]\nn = 1.7\n[verify]\ntruth = \"truth.json\"\n"
+      "sampling = \"incidence-plane\"\ntrials = 3\n");
+  must({"verify", "r.toml", "--plot", "c.svg", "--markdown", "v.md"});
+  EXPECT_NE(content("c.svg").find("k_uds"), std::string::npos);
+  EXPECT_NE(content("v.md").find("| r | plane, 2 % | 0 of 3 | "), std::string::npos) << content("v.md");
+  EXPECT_EQ(run_here({"verify", "r.toml", "--plot", "c.pdf"}).status, 2);
+  EXPECT_EQ(run_here({"verify", "r.toml", "--markdown", "r.toml"}).status, 2);
+  EXPECT_EQ(run_here({"verify", "r.toml", "--level", "2"}).status, 2);
+}
+
 TEST_F(Pipeline, AForeignLocaleChangesNothing) {
   add_scan("s.csv");
   must({"fit", "s.csv", "-o", "a.json"});

@@ -68,10 +68,10 @@ k_dd = {min = 0.1}
 n = {min = 1.2, max = 2.5}
 [verify]
 truth = "truth.json"
-noise = {relative = 0.05, additive = 0.01}
+noise = {relative = 0.05, additive = 0.01, known = true}
 sampling = "incidence-plane"
 trials = 12
-bounds = {slope_bias = 0.02, coverage_95 = [0.9, 0.99]}
+bounds = {slope_bias = 0.02, bias = 0.3, coverage_68 = [0.6, 0.75], coverage_95 = [0.9, 0.99], failure_rate = 0.01}
 )",
                                 "fits/r.toml");
   EXPECT_EQ(r.name, "red paint");
@@ -105,6 +105,10 @@ bounds = {slope_bias = 0.02, coverage_95 = [0.9, 0.99]}
   EXPECT_EQ(r.verify->trials, 12U);
   EXPECT_EQ(r.verify->slope_bias, 0.02);
   EXPECT_EQ(r.verify->coverage_95, (std::pair{0.9, 0.99}));
+  EXPECT_TRUE(r.verify->known_noise);
+  EXPECT_EQ(r.verify->bias, 0.3);
+  EXPECT_EQ(r.verify->coverage_68, (std::pair{0.6, 0.75}));
+  EXPECT_EQ(r.verify->failure_rate, 0.01);
 }
 
 TEST(RecipeIo, AutoAndTheNamedTermsAreTheDefaults) {
@@ -320,8 +324,13 @@ const std::vector<BadRecipe> bad_recipes{
      ": /verify/bounds/coverage_95: is crossed, expected [smallest, largest]"},
     {"CoverageOfThree", "verify = {truth = \"t.json\", bounds = {coverage_95 = [0.9, 0.93, 0.97]}}",
      ": /verify/bounds/coverage_95: has 3 numbers, expected [smallest, largest]"},
-    {"UnknownVerifyBound", "verify = {truth = \"t.json\", bounds = {bias = 0.1}}",
-     ": /verify/bounds/bias: is not a known key, expected slope_bias or coverage_95"},
+    {"UnknownVerifyBound", "verify = {truth = \"t.json\", bounds = {spread = 0.1}}",
+     ": /verify/bounds/spread: is not a known key, expected slope_bias, bias, coverage_68, coverage_95 or "
+     "failure_rate"},
+    {"FailureRateAboveOne", "verify = {truth = \"t.json\", bounds = {failure_rate = 2}}",
+     ": /verify/bounds/failure_rate: is 2, expected a number in [0, 1]"},
+    {"KnownOfWrongType", "verify = {truth = \"t.json\", noise = {known = 1}}",
+     ": /verify/noise/known: is an integer, expected true or false"},
     {"VerifyOfWrongType", "verify = true", ": /verify: is a boolean, expected a table"},
 };
 

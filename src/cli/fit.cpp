@@ -93,6 +93,7 @@ int run(const Options& options) {
     const ProgressLine progress("fitting " + in_quotes(scan.name), options.quiet);
     FitResult fitted = fit(scan, settings);
     add_reflectance(fitted, scan);
+    add_measurement_design(fitted, scan, settings);
     return fitted;
   }();
   write_outputs(options, scan, result);

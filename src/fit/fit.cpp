@@ -7,17 +7,48 @@
 
 #include "brdf/evaluator.h"
 #include "fit/assemble.h"
+#include "fit/fit_evidence.h"
 #include "fit/problem.h"
+#include "fit/scan_support.h"
 #include "fit/solve.h"
 
 namespace goniofit {
 
 namespace {
 
+FitEvidence evidence_of(const Problem& problem, const FitPoint& point) {
+  FitEvidence e{.l = linearise(problem, point)};
+  e.noise = reading_noise(problem, e.l);
+  return e;
+}
+
+// The minimum, less what cannot be in the scan: light from below a metal, and lobes that only its noise has.
+Solved solve_sensibly(Problem& problem, FitEvidence& evidence) {
+  HeldAtZero held(problem);
+  const std::vector<std::size_t> opaque = opaque_channels(problem);
+  for (const std::size_t c : opaque) {
+    for (const std::size_t j : subsurface_coefficients(problem)) {
+      const auto k = static_cast<Eigen::Index>(j);
+      if (problem.channels[c].lower[k] < problem.channels[c].upper[k]) held.hold(c, j);
+    }
+  }
+  Solved solved = solve(problem);
+  evidence = evidence_of(problem, solved.best.point);
+  const LobeTest lobes = test_lobes(problem, solved.best.point, evidence.l, evidence.noise);
+  if (!lobes.significant) {
+    solved.best = without_lobes(problem, solved.best);
+    evidence = evidence_of(problem, solved.best.point);
+    evidence.no_lobes = lobes;
+  }
+  evidence.opaque = opaque;
+  return solved;
+}
+
 FitResult fit_as_asked(const Scan& scan, const FitSettings& settings) {
-  const Problem problem(scan, settings);
-  const Solved solved = solve(problem);
-  FitResult result = assemble(problem, scan, solved.best);
+  Problem problem(scan, settings);
+  FitEvidence evidence;
+  const Solved solved = solve_sensibly(problem, evidence);
+  FitResult result = assemble(problem, scan, solved.best, evidence);
   result.search_evaluations = solved.evaluations;
   result.polish_starts = solved.starts;
   result.polish_iterations = solved.iterations;
@@ -72,6 +103,30 @@ std::size_t free_parameters(const FitResult& r) {
 }
 
 }  // namespace
+
+std::string_view name_of(ParameterFlag flag) noexcept {
+  switch (flag) {
+    case ParameterFlag::fixed:
+      return "fixed";
+    case ParameterFlag::at_bound:
+      return "at_bound";
+    case ParameterFlag::at_start:
+      return "at_start";
+    case ParameterFlag::degenerate:
+      return "degenerate";
+    case ParameterFlag::insignificant:
+      return "insignificant";
+    case ParameterFlag::unsupported:
+      return "unsupported";
+    case ParameterFlag::opaque:
+      break;
+  }
+  return "opaque";
+}
+
+bool FittedParameter::has(ParameterFlag flag) const noexcept {
+  return std::find(flags.begin(), flags.end(), flag) != flags.end();
+}
 
 FitResult fit(const Scan& scan, const FitSettings& settings) {
   const auto start = std::chrono::steady_clock::now();

@@ -35,6 +35,13 @@ bool is_one_of(std::size_t index, const std::vector<std::size_t>& indices) {
   return std::find(indices.begin(), indices.end(), index) != indices.end();
 }
 
+// Grooves that are not told from none: what they change goes with the square of their facets' slope, and that is to
+// stand at four of its standard uncertainties.
+bool is_flat(const FittedParameter& p) {
+  if (p.name != "facet_slope_deg" || p.fixed || !p.value) return false;
+  return p.at_lower || (p.u && *p.value < 2.0 * 4.0 * *p.u);
+}
+
 class Assembly {
  public:
   Assembly(const Problem& problem, const Scan& scan, const Polished& best, const FitEvidence& evidence)
@@ -166,7 +173,8 @@ void Assembly::summarise() {
 
 void Assembly::add_shape() {
   Material& m = out_.material;
-  for (const FittedParameter& p : shape_rows(problem_, best_.point, u_)) {
+  for (FittedParameter& p : shape_rows(problem_, best_.point, u_)) {
+    if (problem_.model == surface_model && is_flat(p)) undetermine(p);
     record(p, p.value.has_value());
     if (problem_.model == surface_model) {
       *m.surface.find(p.name) = p.value;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <set>
 
+#include <fmt/format.h>
+
 #include "brdf/evaluator.h"
 #include "fit/assemble.h"
 #include "fit/fit_evidence.h"
@@ -44,11 +46,28 @@ Solved solve_sensibly(Problem& problem, FitEvidence& evidence) {
   return solved;
 }
 
+FitResult fit_as_asked(const Scan& scan, const FitSettings& settings);
+
+FitResult without_coherence(const Scan& scan, FitSettings settings, double p) {
+  settings.components->erase(Effect::coh);
+  settings.components->insert(Effect::dd);
+  settings.parameters.erase("sigma_um");  // whose bounds have no meaning then
+  FitResult result = fit_as_asked(scan, settings);
+  result.warnings.push_back(fmt::format(
+      "coh was left out: it does not stand clear of the noise (probability {:.2g} under noise alone), so sigma_um is "
+      "not "
+      "determined; the surface is too rough for these wavelengths to reflect coherently, or mirror readings are few",
+      p));
+  return result;
+}
+
 FitResult fit_as_asked(const Scan& scan, const FitSettings& settings) {
   Problem problem(scan, settings);
   FitEvidence evidence;
   const Solved solved = solve_sensibly(problem, evidence);
   FitResult result = assemble(problem, scan, solved.best, evidence);
+  const double p = noise_makes_coherence(problem, result.material, evidence.noise);
+  if (p >= lobe_level) return without_coherence(scan, settings, p);
   result.search_evaluations = solved.evaluations;
   result.polish_starts = solved.starts;
   result.polish_iterations = solved.iterations;
@@ -65,7 +84,13 @@ const char* open_parameter(const FitResult& r) {
     return std::find_if(r.parameters.begin(), r.parameters.end(),
                         [name](const FittedParameter& p) { return p.name == name; });
   };
-  if (d == DistributionTier::student_t) return row("tail")->value ? nullptr : "tail";
+  if (d == DistributionTier::student_t) {
+    const FittedParameter& tail = *row("tail");
+    if (tail.fixed) return nullptr;
+    // What a tail changes falls with 1/tail: no four standard deviations off nothing is no tail.
+    const bool weak = tail.value && tail.u && *tail.u > 0.25 * (*tail.value - 1.0);
+    return !tail.value || tail.at_upper || weak ? "tail" : nullptr;
+  }
   if (d == DistributionTier::rough_limit || effects.has(Effect::coh)) return nullptr;
   const FittedParameter& sigma = *row("sigma_um");
   const bool loose = sigma.u && *sigma.u > 0.5 * *sigma.value;

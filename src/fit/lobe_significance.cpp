@@ -2,6 +2,10 @@
 
 #include <algorithm>
 #include <boost/math/special_functions/gamma.hpp>
+#include <cmath>
+
+#include "brdf/evaluator.h"
+#include "brdf/surface_shape.h"
 
 namespace goniofit {
 
@@ -73,6 +77,24 @@ LobeTest test_lobes(const Problem& problem, const FitPoint& point, const Lineari
   test.p = std::min({1.0, beyond(test.chi2, channels), channels * beyond(most, 1.0)});
   test.significant = test.p < lobe_level;
   return test;
+}
+
+double noise_makes_coherence(const Problem& problem, const Material& material, const ReadingNoise& noise) {
+  const bool coherent = material.model == surface_model && material.components.has(Effect::coh);
+  if (!coherent || problem.known_sigma_um || problem.known_tau_um) return 0.0;
+  const Evaluator evaluator(material);
+  double chi2 = 0.0;
+  for (std::size_t i = 0; i < problem.samples(); ++i) {
+    if (!in_mirror_cone(problem.pairs[i], problem.solid_angle_sr)) continue;
+    for (std::size_t c = 0; c < problem.channels.size(); ++c) {
+      // The noise of the reading without it, which is what it is to be told from.
+      const double coh = evaluator.value(problem.pairs[i], c, Effect::coh);
+      const double rest = evaluator.value(problem.pairs[i], c) - coh;
+      const double least = noise.sd[c].minCoeff();
+      chi2 += std::pow(coh / std::max(noise.model[c].sd(rest), least), 2);
+    }
+  }
+  return beyond(chi2, static_cast<double>(problem.channels.size()));
 }
 
 Polished without_lobes(Problem& problem, const Polished& with) {

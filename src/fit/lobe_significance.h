@@ -35,6 +35,10 @@ struct LobeTest {
 [[nodiscard]] LobeTest test_lobes(const Problem& problem, const FitPoint& point, const Linearisation& l,
                                   const ReadingNoise& noise);
 
+/// Probability that noise alone makes as much of coh as the material has, sigma being free; 0 where there is nothing to
+/// test.
+[[nodiscard]] double noise_makes_coherence(const Problem& problem, const Material& material, const ReadingNoise& noise);
+
 /// Bounds of a problem narrowed to 0 for some coefficients, until the end of its life.
 class HeldAtZero {
  public:

@@ -57,7 +57,8 @@ struct Candidates {
 
 Candidates candidates_for(const Scan& scan, const Material& material, const ReadingNoise& noise) {
   Candidates out;
-  out.scan = {.source = scan.source, .name = scan.name, .geometry = ScanGeometry::hemispherical};
+  out.scan.source = scan.source;
+  out.scan.solid_angle_sr = scan.solid_angle_sr;
   for (const double theta : candidate_angles()) {
     out.first.push_back(out.scan.size());
     for (const AnglePair& a : candidate_directions(scan, theta)) {

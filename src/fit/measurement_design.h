@@ -34,8 +34,8 @@ struct MeasurementDesign {
   std::string name, channel;          ///< the weakest parameter; channel empty for a shared one
   std::optional<double> value;        ///< fitted; none where it is not determined
   double u = 0.0;                     ///< expected of the scan as it is; may be huge where nothing determines it
-  std::vector<DesignOption> options;  ///< the best single angle, then the best pair with it
-  std::vector<DesignOption> singles;  ///< every candidate angle
+  std::vector<DesignOption> options{};  ///< the best single angle, then the best pair with it
+  std::vector<DesignOption> singles{};  ///< every candidate angle
   bool worth_saying = false;  ///< the parameter is weak (beyond 10 %, or not identifiable), the gain 1.5 at least
 };
 

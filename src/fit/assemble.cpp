@@ -7,7 +7,6 @@
 
 #include "brdf/rough_shape.h"
 #include "fit/fit_warnings.h"
-#include "fit/identifiability_analysis.h"
 #include "fit/lobe_significance.h"
 #include "fit/scan_support.h"
 #include "fit/shape_rows.h"
@@ -87,7 +86,7 @@ FitResult Assembly::result() {
   add_totals();
   add_shape();
   for (std::size_t c = 0; c < problem_.channels.size(); ++c) add_channel(c);
-  out_.identifiability = identify(problem_, best_.point, l_, evidence_.noise);
+  out_.identifiability = evidence_.identifiability;
   mark_open_directions();
   if (problem_.model == surface_model) leave_out_undetermined();
   summarise();
@@ -230,6 +229,7 @@ void Assembly::add_coefficient(std::size_t c, std::size_t coefficient) {
     undetermine(p);
     p.flags.push_back(ParameterFlag::opaque);
   }
+  if (name == name_of(Coefficient::k_fs) && is_one_of(c, evidence_.no_fs)) undetermine(p);
   // An uncertainty beyond both the value and 1 says nothing of a coefficient whose scale is 1. Where all that it adds
   // to the scan is less than the residual of one reading, it is not determined; else it is so only apart from its
   // companions.

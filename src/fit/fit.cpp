@@ -10,6 +10,7 @@
 #include "brdf/evaluator.h"
 #include "fit/assemble.h"
 #include "fit/fit_evidence.h"
+#include "fit/identifiability_analysis.h"
 #include "fit/problem.h"
 #include "fit/scan_support.h"
 #include "fit/solve.h"
@@ -18,10 +19,39 @@ namespace goniofit {
 
 namespace {
 
-FitEvidence evidence_of(const Problem& problem, const FitPoint& point) {
-  FitEvidence e{.l = linearise(problem, point)};
+void look_at(const Problem& problem, const FitPoint& point, FitEvidence& e) {
+  e.l = linearise(problem, point);
   e.noise = reading_noise(problem, e.l);
-  return e;
+}
+
+// The k_fs of a channel; none where the model has none, or the settings demand one.
+std::optional<std::size_t> free_fs(const Problem& problem, std::size_t channel) {
+  for (const std::size_t j : subsurface_coefficients(problem)) {
+    const bool may_vanish = problem.channels[channel].lower[static_cast<Eigen::Index>(j)] <= 0.0;
+    if (may_vanish && problem.basis->coefficients()[j].name == name_of(Coefficient::k_fs)) return j;
+  }
+  return std::nullopt;
+}
+
+// A k_fs that the readings leave open by itself is whatever their noise makes of it, since no upper bound stops it: the
+// minimum without.
+void leave_out_unseen_fs(Problem& problem, Polished& best, FitEvidence& evidence) {
+  HeldAtZero held(problem);
+  FitPoint start = best.point;
+  for (const OpenDirection& open : evidence.identifiability.open) {
+    if (open.names != std::vector<std::string>{std::string(name_of(Coefficient::k_fs))}) continue;
+    for (std::size_t c = 0; c < problem.channels.size(); ++c) {
+      const std::optional<std::size_t> fs = free_fs(problem, c);
+      if (problem.channels[c].name != open.channel || !fs) continue;
+      held.hold(c, *fs);
+      start.coefficients[c][static_cast<Eigen::Index>(*fs)] = 0.0;
+      evidence.no_fs.push_back(c);
+    }
+  }
+  if (start.coefficients == best.point.coefficients) return;
+  const std::size_t before = best.iterations;
+  best = polish(problem, start);
+  best.iterations += before;
 }
 
 // The minimum, less what cannot be in the scan: light from below a metal, and lobes that only its noise has.
@@ -35,14 +65,21 @@ Solved solve_sensibly(Problem& problem, FitEvidence& evidence) {
     }
   }
   Solved solved = solve(problem);
-  evidence = evidence_of(problem, solved.best.point);
-  const LobeTest lobes = test_lobes(problem, solved.best.point, evidence.l, evidence.noise);
+  Polished& best = solved.best;
+  look_at(problem, best.point, evidence);
+  const LobeTest lobes = test_lobes(problem, best.point, evidence.l, evidence.noise);
   if (!lobes.significant) {
-    solved.best = without_lobes(problem, solved.best);
-    evidence = evidence_of(problem, solved.best.point);
+    best = without_lobes(problem, best);
+    look_at(problem, best.point, evidence);
     evidence.no_lobes = lobes;
   }
   evidence.opaque = opaque;
+  evidence.identifiability = identify(problem, best.point, evidence.l, evidence.noise);
+  leave_out_unseen_fs(problem, best, evidence);
+  if (!evidence.no_fs.empty()) {
+    look_at(problem, best.point, evidence);
+    evidence.identifiability = identify(problem, best.point, evidence.l, evidence.noise);
+  }
   return solved;
 }
 

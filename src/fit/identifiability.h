@@ -3,10 +3,11 @@
 //
 // The Jacobian's rows are divided by the standard deviation of their readings' noise, its columns multiplied by the
 // parameters' own sizes: a shape parameter's is a factor e, a coefficient's its value (or a tenth of its range, where
-// that is larger), of n it is n - 1, of f0 its value (or 0.04). A direction of singular value s then is known to 1/s of
-// the parameters' sizes, whatever loss was fitted: below 1 it is weak, its uncertainty exceeding the parameters
-// themselves; a null direction changes no reading at all. Parameters on a bound are among the columns, unlike in the
-// uncertainties: what trades for another may have ended there by chance.
+// that is larger; of an unbounded one from 0.1 to 10, whatever noise makes of it), of n it is n - 1, of f0 its value
+// (or 0.04). A direction of singular value s then is known to 1/s of the parameters' sizes, whatever loss was fitted:
+// below 1 it is weak, its uncertainty exceeding the parameters themselves; a null direction changes no reading at all.
+// Parameters on a bound are among the columns, unlike in the uncertainties: what trades for another may have ended
+// there by chance.
 //
 // Singular vectors of equal singular values mix as they like. So directions are read from the projector on the space of
 // all of them, which does not: parameters whose entry there exceeds 0.15 belong together.

@@ -1,6 +1,7 @@
 #include "fit/identifiability_analysis.h"
 
 #include <fmt/format.h>
+#include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 #include <Eigen/SVD>
 #include <algorithm>
@@ -16,6 +17,7 @@ constexpr double weak_below = 1.0;
 constexpr double null_below = 1e-9;  // of the largest singular value
 constexpr double belongs = 0.15;     // entry of the projector
 constexpr double part_of_range = 0.1;
+constexpr double most_of_unbounded = 10.0;
 constexpr double least_f0 = 0.04;
 
 bool near(double value, double bound) {
@@ -23,8 +25,8 @@ bool near(double value, double bound) {
 }
 
 double coefficient_size(double value, double lower, double upper) {
-  const double range = std::isfinite(upper - lower) ? upper - lower : 1.0;
-  return std::max(std::fabs(value), part_of_range * range);
+  if (std::isfinite(upper - lower)) return std::max(std::fabs(value), part_of_range * (upper - lower));
+  return std::clamp(std::fabs(value), part_of_range, most_of_unbounded);
 }
 
 Eigen::MatrixXd triangle_of(const Eigen::MatrixXd& m) {
@@ -157,15 +159,17 @@ OpenDirection Analysis::direction(const std::vector<Eigen::Index>& members) cons
     out.channel = c.channel;
   }
   if (!one_channel) out.channel.clear();
-  // The least singular value of those directions that these parameters take part in.
-  double least = weak_below;
+  const double floor = null_below * std::max(singular_[0], 1.0);
+  double null = 0.0;
+  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(projector_.rows(), projector_.cols());
   for (Eigen::Index k = strong_; k < singular_.size(); ++k) {
-    double share = 0.0;
-    for (const Eigen::Index i : members) share += v_(i, k) * v_(i, k);
-    if (share > 0.5) least = std::min(least, singular_[k]);
+    const double s = std::max(singular_[k], floor);
+    covariance += v_.col(k) * v_.col(k).transpose() / (s * s);
+    for (const Eigen::Index i : members) null += singular_[k] <= floor ? v_(i, k) * v_(i, k) : 0.0;
   }
-  out.null = least <= null_below * std::max(singular_[0], 1.0);
-  out.u = out.null ? std::numeric_limits<double>::infinity() : 1.0 / least;
+  out.null = null > 0.5;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> own(covariance(members, members), Eigen::EigenvaluesOnly);
+  out.u = out.null ? std::numeric_limits<double>::infinity() : std::sqrt(own.eigenvalues().maxCoeff());
   if (members.size() == 2) out.known = combination(members);
   return out;
 }

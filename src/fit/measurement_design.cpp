@@ -23,6 +23,8 @@ constexpr double weak = 0.1;
 constexpr double worthwhile = 1.5;
 constexpr double second_worthwhile = 1.3;
 constexpr std::size_t fewest_readings = 10;
+constexpr double sweep_deg = 85.0;
+constexpr double wide_deg = 75.0;
 
 // Rows of the scan's incidence angle that is nearest to `theta_i_deg`, of one azimuth.
 Rows nearest_incidence(const Scan& scan, double theta_i_deg) {
@@ -229,7 +231,8 @@ std::optional<MeasurementDesign> Design::best() const {
   }
   out.options = {out.singles[first], pair};
   const bool is_weak = !row.identifiable || now[worst] > weak;
-  out.worth_saying = is_weak && out.u > worthwhile * out.options.front().u;
+  const bool comes_to_something = out.options.front().u < unit * column.size;
+  out.worth_saying = is_weak && comes_to_something && out.u > worthwhile * out.options.front().u;
   return out;
 }
 
@@ -244,21 +247,21 @@ std::vector<double> candidate_angles() {
 std::vector<AnglePair> candidate_directions(const Scan& scan, double theta_i_deg) {
   std::vector<AnglePair> out;
   const Rows rows = nearest_incidence(scan, theta_i_deg);
-  const bool hemisphere = std::any_of(rows.begin(), rows.end(), [&](std::size_t r) { return scan.plane_side(r) == 0; });
+  const bool out_of_plane =
+      std::any_of(rows.begin(), rows.end(), [&](std::size_t r) { return scan.plane_side(r) == 0; });
+  const bool wide =
+      std::any_of(rows.begin(), rows.end(), [&](std::size_t r) { return scan.theta_r_deg[r] > wide_deg; });
+  const bool hemisphere = out_of_plane && wide;
   if (hemisphere) {
     for (const std::size_t row : rows) {
       const AnglePair own = scan.angles(row);
       if (!is_mirror(own)) out.push_back({theta_i_deg, own.phi_i_deg, own.theta_r_deg, own.phi_r_deg});
     }
   } else {
-    double widest = 0.0;
-    for (const std::size_t row : rows) {
-      if (scan.theta_r_deg[row] < 90.0) widest = std::max(widest, scan.theta_r_deg[row]);
-    }
     const std::size_t count = std::max(rows.size(), fewest_readings);
     for (std::size_t i = 0; i < count; ++i) {
       const double t = static_cast<double>(i) / static_cast<double>(count - 1);
-      out.push_back(in_plane(theta_i_deg, widest * (2.0 * t - 1.0)));
+      out.push_back(in_plane(theta_i_deg, sweep_deg * (2.0 * t - 1.0)));
     }
   }
   if (reads_mirrors(scan)) {

@@ -2,11 +2,12 @@
 // Which further incidence angles would determine a fit's weak parameters best: the information that the model itself
 // expects, at the fitted point.
 //
-// A candidate is a sweep of the detector through the plane of incidence at one more theta_i, of as many readings as the
-// scan has at one of its own (of a hemispherical scan as many as it has at one, its own directions of view), each with
+// A candidate is a sweep of the detector through the plane of incidence to 85 degrees at one more theta_i, of as many
+// readings as the scan has at one of its own (of a hemispherical scan its own directions of view, if these go beyond 75
+// degrees), and the mirror direction where the scan has mirror directions. Each reading has
 // the noise that the scan has at that value: its own u, else what estimate_noise() made of the residuals. With J the
 // derivatives of the residuals as they are weighted in the loss, and s² their noise's variance, the fit's covariance
-// will be
+// will then be
 //
 //   (JᵀJ)⁻¹ [Jᵀ s² J] (JᵀJ)⁻¹,   JᵀJ and Jᵀ s² J the scan's plus the candidate's:
 //
@@ -31,9 +32,9 @@ struct DesignOption {
 };
 
 struct MeasurementDesign {
-  std::string name, channel;          ///< the weakest parameter; channel empty for a shared one
-  std::optional<double> value;        ///< fitted; none where it is not determined
-  double u = 0.0;                     ///< expected of the scan as it is; may be huge where nothing determines it
+  std::string name, channel;            ///< the weakest parameter; channel empty for a shared one
+  std::optional<double> value;          ///< fitted; none where it is not determined
+  double u = 0.0;                       ///< expected of the scan as it is; may be huge where nothing determines it
   std::vector<DesignOption> options{};  ///< the best single angle, then the best pair with it
   std::vector<DesignOption> singles{};  ///< every candidate angle
   bool worth_saying = false;  ///< the parameter is weak (beyond 10 %, or not identifiable), the gain 1.5 at least

@@ -78,7 +78,7 @@ double stated_after(const Material& truth, const Scan& scan, const FitSettings& 
 TEST(MeasurementDesign, WhatItPromisesOfForwardScatteringIsWhatComes) {
   const Material truth = test::garnet_red_paint_13();
   for (const Sampling sampling : {Sampling::hemisphere, Sampling::incidence_plane}) {
-    const Scan scan = up_to(simulate(truth, sampling, {noise, 0.0}, 3), 45.0);
+    const Scan scan = up_to(simulate(truth, sampling, {noise, 0.0}, 3), 20.0);
     const FitSettings settings = of(truth.components);
     FitResult r = fit(scan, settings);
     add_measurement_design(r, scan, settings);

@@ -44,11 +44,12 @@ ReadingNoise reading_noise(const Problem& problem, const Linearisation& l) {
     // Where uncertainties are stated the model is theirs, as if they were residuals of that size.
     const Noise noise =
         estimate_noise(thinned(f), thinned(stated ? Eigen::VectorXd(channel.u / sigma_of_median) : residual));
+    if (!std::isfinite(noise.relative)) noise.relative = 0.0;  // of nothing but zeros
     // A dark channel has no noise to speak of; its square still has to be a number.
     const double least = std::max(1e-30, 1e-9 * std::sqrt(problem.total / static_cast<double>(problem.samples())));
-    Eigen::VectorXd sd = f.unaryExpr([&noise](double value) { return noise.sd(value); });
+    Eigen::VectorXd sd = f.unaryExpr([noise](double value) { return noise.sd(value); });
     if (stated) sd = birge_ratio(thinned(residual), thinned(channel.u)) * channel.u;
-    sd = sd.cwiseMax(least);
+    for (double& value : sd) value = value > least ? value : least;
     out.whitener.push_back(weight.cwiseProduct(sd).cwiseInverse());
     out.model.push_back(noise);
     out.sd.push_back(std::move(sd));

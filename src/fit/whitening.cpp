@@ -42,7 +42,7 @@ ReadingNoise reading_noise(const Problem& problem, const Linearisation& l) {
     const Eigen::VectorXd f = residual + channel.target.cwiseQuotient(problem.weight);
     const bool stated = channel.u.size() > 0 && channel.u.minCoeff() > 0.0;
     // Where uncertainties are stated the model is theirs, as if they were residuals of that size.
-    const Noise noise =
+    Noise noise =
         estimate_noise(thinned(f), thinned(stated ? Eigen::VectorXd(channel.u / sigma_of_median) : residual));
     if (!std::isfinite(noise.relative)) noise.relative = 0.0;  // of nothing but zeros
     // A dark channel has no noise to speak of; its square still has to be a number.

@@ -2,6 +2,8 @@
 
 #include "fit/fit.h"
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -87,6 +89,13 @@ void print_result(const Options& options, const Scan& scan, const FitResult& res
   }
 }
 
+// Whether some parameter is known to no better than a tenth: only then a report asks for more angles.
+bool is_weak(const FitResult& result) {
+  return std::any_of(result.parameters.begin(), result.parameters.end(), [](const FittedParameter& p) {
+    return !p.derived && (!p.identifiable || (p.value && p.u && *p.u > 0.1 * std::fabs(*p.value)));
+  });
+}
+
 int run(const Options& options) {
   const Recipe recipe = recipe_of(options.scan);
   check_usage(options, recipe);
@@ -99,6 +108,7 @@ int run(const Options& options) {
     const ProgressLine progress("fitting " + in_quotes(scan.name), options.quiet);
     FitResult fitted = fit(scan, settings);
     add_reflectance(fitted, scan);
+    if (options.json || is_weak(fitted)) add_measurement_design(fitted, scan, settings);
     return fitted;
   }();
   write_outputs(options, scan, result);

@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <string>
+#include <vector>
 
 #include "brdf/rough_shape.h"
-#include "fit/model.h"
+#include "fit/fit_warnings.h"
+#include "fit/lobe_significance.h"
+#include "fit/scan_support.h"
 #include "fit/shape_rows.h"
 #include "fit/uncertainty.h"
 #include "geometry/angles.h"
@@ -14,31 +17,38 @@ namespace goniofit {
 
 namespace {
 
-using ByName = std::map<std::string, std::vector<std::string>>;  // parameter, its channels
+std::string key_of(const FittedParameter& p) { return p.channel.empty() ? p.name : p.channel + "." + p.name; }
 
-// "k_dd of every channel, k_uds of R and B".
-std::string listed(const ByName& parameters, std::size_t all) {
-  std::string text;
-  for (const auto& [name, channels] : parameters) {
-    text += (text.empty() ? "" : ", ") + name + " of ";
-    if (channels.size() == all && all > 1) {
-      text += "every channel";
-      continue;
-    }
-    for (std::size_t i = 0; i < channels.size(); ++i) {
-      text += (i == 0 ? "" : i + 1 == channels.size() ? " and " : ", ") + channels[i];
-    }
-  }
-  return text;
+void forget_uncertainty(FittedParameter& p) {
+  p.u = p.u_classical = p.coverage_factor = std::nullopt;
+  p.interval_68 = p.interval_95 = std::nullopt;
+}
+
+void undetermine(FittedParameter& p) {
+  p.value = std::nullopt;
+  forget_uncertainty(p);
+  p.at_lower = p.at_upper = false;
+}
+
+bool is_one_of(std::size_t index, const std::vector<std::size_t>& indices) {
+  return std::find(indices.begin(), indices.end(), index) != indices.end();
+}
+
+// Grooves that are not told from none: what they change goes with the square of their facets' slope, and that is to
+// stand at four of its standard uncertainties.
+bool is_flat(const FittedParameter& p) {
+  if (p.name != "facet_slope_deg" || p.fixed || !p.value) return false;
+  return p.at_lower || (p.u && *p.value < 2.0 * 4.0 * *p.u);
 }
 
 class Assembly {
  public:
-  Assembly(const Problem& problem, const Scan& scan, const Polished& best)
+  Assembly(const Problem& problem, const Scan& scan, const Polished& best, const FitEvidence& evidence)
       : problem_(problem),
         scan_(scan),
         best_(best),
-        l_(linearise(problem, best.point)),
+        evidence_(evidence),
+        l_(evidence.l),
         u_(uncertainties(problem, best.point, l_)) {}
   [[nodiscard]] FitResult result();
 
@@ -48,17 +58,17 @@ class Assembly {
   void add_shape();
   void add_channel(std::size_t c);
   void add_coefficient(std::size_t c, std::size_t coefficient);
-  [[nodiscard]] bool is_lobe(std::size_t coefficient) const;
-  void add_warnings();
-  void warn_of_surface();
-  void warn_of_peer();
   void leave_out_undetermined();
   void record(const FittedParameter& p, bool identifiable);
+  void mark_open_directions();
+  void add_flags(FittedParameter& p) const;
+  void summarise();
 
   const Problem& problem_;
   const Scan& scan_;
   const Polished& best_;
-  Linearisation l_;
+  const FitEvidence& evidence_;
+  const Linearisation& l_;
   Uncertainties u_;
   FitResult out_;
   FitSummary summary_;
@@ -77,7 +87,11 @@ FitResult Assembly::result() {
   add_totals();
   add_shape();
   for (std::size_t c = 0; c < problem_.channels.size(); ++c) add_channel(c);
-  add_warnings();
+  out_.identifiability = evidence_.identifiability;
+  mark_open_directions();
+  if (problem_.model == surface_model) leave_out_undetermined();
+  summarise();
+  add_fit_warnings(out_, problem_, best_.point, evidence_);
   m.fit = summary_;
   return std::move(out_);
 }
@@ -102,13 +116,7 @@ void Assembly::add_totals() {
 
 // Whatever was made least: the loss of the 2005 report, of the readings used.
 void Assembly::add_published_loss() {
-  std::vector<Eigen::VectorXd> all;
-  const bool plain = problem_.quadratic() && std::all_of(problem_.channels.begin(), problem_.channels.end(),
-                                                         [](const auto& c) { return c.emphasis.size() == 0; });
-  if (!plain) all = deviations(problem_, best_.point);
-  for (const Eigen::VectorXd& r : l_.residuals) {
-    if (plain) all.push_back(r.cwiseQuotient(problem_.weight));
-  }
+  const std::vector<Eigen::VectorXd>& all = l_.deviations;
   double values = 0.0;
   for (std::size_t c = 0; c < all.size(); ++c) {
     const Eigen::VectorXd& used = problem_.channels[c].used;
@@ -129,19 +137,65 @@ void Assembly::add_published_loss() {
 
 void Assembly::record(const FittedParameter& p, bool identifiable) {
   out_.parameters.push_back(p);
-  const std::string key = p.channel.empty() ? p.name : p.channel + "." + p.name;
-  summary_.identifiable[key] = identifiable;
-  if (!p.u) return;
-  if (p.channel.empty()) {
-    summary_.shared_uncertainty[p.name] = *p.u;
-  } else {
-    summary_.channel_uncertainty[p.channel][p.name] = *p.u;
+  out_.parameters.back().identifiable = identifiable;
+}
+
+// What the whitened Jacobian leaves open is not identifiable, whatever its own uncertainty says; one whose partner
+// stands on a bound has the uncertainty of that accident.
+void Assembly::mark_open_directions() {
+  for (const OpenDirection& open : out_.identifiability.open) {
+    std::vector<FittedParameter*> members;
+    bool on_bound = false;
+    for (FittedParameter& p : out_.parameters) {
+      if (std::find(open.keys.begin(), open.keys.end(), key_of(p)) == open.keys.end()) continue;
+      members.push_back(&p);
+      on_bound = on_bound || p.at_lower || p.at_upper;
+    }
+    for (FittedParameter* p : members) {
+      p->identifiable = false;
+      p->flags.push_back(ParameterFlag::degenerate);
+      if (on_bound && members.size() > 1) forget_uncertainty(*p);
+    }
+  }
+}
+
+void Assembly::add_flags(FittedParameter& p) const {
+  const auto add = [&p](ParameterFlag flag) {
+    if (!p.has(flag)) p.flags.push_back(flag);
+  };
+  if (p.fixed) add(ParameterFlag::fixed);
+  if (!p.fixed && (p.at_lower || p.at_upper)) add(ParameterFlag::at_bound);
+  if (p.channel.empty() && !p.value && problem_.shape_index(p.name)) {
+    add(evidence_.no_lobes ? ParameterFlag::insignificant : ParameterFlag::at_start);
+  }
+  const bool open = !p.identifiable || !p.value;
+  if (open && p.name == name_of(Coefficient::k_fs) && !missing_for_fs(problem_, best_.point, evidence_.noise).empty()) {
+    add(ParameterFlag::unsupported);
+  }
+  if (open && (p.name == name_of(Coefficient::k_uds) || p.name == name_of(Coefficient::k_udf)) &&
+      !missing_for_uds(problem_).empty()) {
+    add(ParameterFlag::unsupported);
+  }
+}
+
+// The same in the material's own words.
+void Assembly::summarise() {
+  for (FittedParameter& p : out_.parameters) {
+    add_flags(p);
+    summary_.identifiable[key_of(p)] = p.identifiable;
+    if (!p.u) continue;
+    if (p.channel.empty()) {
+      summary_.shared_uncertainty[p.name] = *p.u;
+    } else {
+      summary_.channel_uncertainty[p.channel][p.name] = *p.u;
+    }
   }
 }
 
 void Assembly::add_shape() {
   Material& m = out_.material;
-  for (const FittedParameter& p : shape_rows(problem_, best_.point, u_)) {
+  for (FittedParameter& p : shape_rows(problem_, best_.point, u_)) {
+    if (problem_.model == surface_model && is_flat(p)) undetermine(p);
     record(p, p.value.has_value());
     if (problem_.model == surface_model) {
       *m.surface.find(p.name) = p.value;
@@ -180,13 +234,6 @@ void Assembly::add_channel(std::size_t c) {
   }
 }
 
-// Whether all columns of a coefficient read the shape.
-bool Assembly::is_lobe(std::size_t coefficient) const {
-  const std::vector<BasisColumn>& columns = problem_.basis->columns();
-  return std::all_of(columns.begin(), columns.end(),
-                     [&](const BasisColumn& c) { return c.coefficient != coefficient || c.reads_shape; });
-}
-
 void Assembly::add_coefficient(std::size_t c, std::size_t coefficient) {
   const auto j = static_cast<Eigen::Index>(coefficient);
   const ProblemChannel& channel = problem_.channels[c];
@@ -195,25 +242,26 @@ void Assembly::add_coefficient(std::size_t c, std::size_t coefficient) {
                                     channel.upper[j], u_.coefficients[c][coefficient]);
   // A lobe whose width nobody can tell is no lobe whose strength anybody can. (Grooves that nobody can tell from a flat
   // surface still have their albedo.)
-  const bool width_unknown = problem_.model == surface_model && !out_.material.surface.slope;
-  if (width_unknown && name != name_of(Coefficient::rho) && is_lobe(coefficient) && p.value != 0.0) {
-    p.value.reset();
-    p.u.reset();
+  const bool lobe = is_lobe(*problem_.basis, coefficient);
+  const bool width_unknown = problem_.model == surface_model && !out_.material.surface.slope && lobe;
+  if (width_unknown && p.value != 0.0) undetermine(p);
+  // Light from below a metal: there is none, whatever else is left of the scan.
+  const bool opaque = is_one_of(c, evidence_.opaque) && is_one_of(coefficient, subsurface_coefficients(problem_));
+  if (opaque && !p.fixed) {
+    undetermine(p);
+    p.flags.push_back(ParameterFlag::opaque);
   }
+  if (name == name_of(Coefficient::k_fs) && is_one_of(c, evidence_.no_fs)) undetermine(p);
   // An uncertainty beyond both the value and 1 says nothing of a coefficient whose scale is 1. Where all that it adds
   // to the scan is less than the residual of one reading, it is not determined; else it is so only apart from its
   // companions.
   const bool says_nothing = p.value && p.u && *p.u > std::max(1.0, *p.value);
   const double noise2 = out_.loss / static_cast<double>(out_.samples * problem_.channels.size());
-  if (says_nothing && *p.value * *p.value * l_.by_coefficient[c].col(j).squaredNorm() < noise2) {
-    p.value.reset();
-    p.u.reset();
-  } else if (says_nothing) {
-    out_.warnings.push_back(p.name + " of " + p.channel +
-                            " is not determined apart from the others: its uncertainty exceeds its value; fix it or "
-                            "another parameter of its component");
-  }
-  record(p, p.value.has_value() && !says_nothing);
+  const bool unseen = says_nothing && *p.value * *p.value * l_.by_coefficient[c].col(j).squaredNorm() < noise2;
+  if (unseen) undetermine(p);
+  if (says_nothing) p.flags.push_back(ParameterFlag::degenerate);
+  if (evidence_.no_lobes && lobe) p.flags.push_back(ParameterFlag::insignificant);
+  record(p, p.value.has_value() && !says_nothing && !width_unknown);
   out_.material.channels[c].set_coefficient(name, p.value);
 }
 
@@ -221,7 +269,9 @@ void Assembly::add_coefficient(std::size_t c, std::size_t coefficient) {
 // the model.
 void Assembly::leave_out_undetermined() {
   Material& m = out_.material;
-  if (m.components.has(Effect::coh) && !m.surface.sigma_um) {
+  if (!m.surface.slope) {
+    m.components.erase(Effect::coh);
+  } else if (m.components.has(Effect::coh) && !m.surface.sigma_um) {
     m.components.erase(Effect::coh);
     out_.warnings.emplace_back(
         "coh vanishes in this scan, so sigma_um is not determined: the surface is too rough for its wavelengths to "
@@ -252,99 +302,10 @@ void Assembly::leave_out_undetermined() {
   }
 }
 
-void Assembly::warn_of_surface() {
-  const Surface& s = out_.material.surface;
-  if (!s.slope) {
-    if (problem_.shape_index("slope")) {
-      out_.warnings.emplace_back(
-          "slope is not determined: no directional part (dd, fs) is left in the fit; leave these out of the "
-          "components, "
-          "or measure near the mirror direction");
-    }
-    out_.material.components.erase(Effect::coh);
-    return;
-  }
-  if (!s.sigma_um && !problem_.basis->has_length()) {
-    out_.notes.emplace_back(
-        "sigma and tau enter only as slope = sigma/tau, so neither is determined alone; give a measured one (--fix "
-        "sigma_um=...), or include coh or the distribution he-torrance");
-  }
-  const FittedParameter& slope = out_.parameters.front();
-  if (slope.at_lower || slope.at_upper) {
-    out_.warnings.push_back(
-        std::string("slope ended on its ") + (slope.at_lower ? "lower" : "upper") +
-        " bound: the scan does not resolve the lobe, or the model does not describe it; look at the plot");
-  } else if (slope.value && slope.u && *slope.u > 0.5 * *slope.value) {
-    out_.warnings.emplace_back(
-        "slope is weakly determined (u above half its value): the directional part is small or was hardly sampled; "
-        "measure nearer to the mirror direction, or leave dd out");
-  }
-}
-
-void Assembly::warn_of_peer() {
-  for (const FittedParameter& p : out_.parameters) {
-    if (!p.channel.empty()) break;
-    if (p.at_lower || p.at_upper) {
-      out_.warnings.push_back(p.name + " ended on its " + (p.at_lower ? "lower" : "upper") +
-                              " bound: the scan does not resolve the lobe, or the model does not describe it");
-    } else if (!p.value) {
-      out_.warnings.push_back(p.name + " is not determined: the lobe that it shapes is not in this scan");
-    }
-  }
-}
-
-void Assembly::add_warnings() {
-  if (!out_.converged)
-    out_.warnings.emplace_back(
-        "the fit did not converge; look at the plot and at the bounds, and try fewer components");
-  if (problem_.model == surface_model) {
-    warn_of_surface();
-    leave_out_undetermined();
-  } else {
-    warn_of_peer();
-  }
-  ByName on_lower;
-  ByName on_upper;
-  for (const FittedParameter& p : out_.parameters) {
-    if (p.channel.empty() || p.fixed) continue;
-    if (p.at_lower) on_lower[p.name].push_back(p.channel);
-    if (p.at_upper) on_upper[p.name].push_back(p.channel);
-    if (!p.value) {
-      out_.warnings.push_back(
-          p.channel + "." + p.name +
-          " is not determined: no reading of the scan depends on it alone; leave its component out, "
-          "or fix it");
-    }
-  }
-  const std::size_t channels = problem_.channels.size();
-  if (!on_lower.empty()) {
-    out_.notes.push_back("on the lower bound: " + listed(on_lower, channels) +
-                         "; the uncertainties of the others hold with these where they are");
-  }
-  if (!on_upper.empty()) {
-    out_.warnings.push_back("on the upper bound: " + listed(on_upper, channels) +
-                            "; check the scan's absolute scale and the refractive index, or widen the bound (--bound "
-                            "NAME=MIN:MAX)");
-  }
-  if (out_.left_out.negative_values > 0) {
-    out_.notes.push_back(std::to_string(out_.left_out.negative_values) +
-                         " negative readings were kept: noise around zero, which must not be cut off");
-  }
-  if (problem_.components.has(Effect::fs) && problem_.weighting == Weight::cosine) {
-    const bool weak = std::any_of(out_.parameters.begin(), out_.parameters.end(), [](const FittedParameter& p) {
-      return p.name == "k_fs" && p.value && p.u && *p.u > 0.1 * *p.value;
-    });
-    if (weak)
-      out_.notes.emplace_back(
-          "k_fs is weak under the cosine-weighted loss, which gives grazing incidence little say; the loss is the "
-          "limit, not the data");
-  }
-}
-
 }  // namespace
 
-FitResult assemble(const Problem& problem, const Scan& scan, const Polished& best) {
-  return Assembly(problem, scan, best).result();
+FitResult assemble(const Problem& problem, const Scan& scan, const Polished& best, const FitEvidence& evidence) {
+  return Assembly(problem, scan, best, evidence).result();
 }
 
 }  // namespace goniofit

@@ -93,14 +93,14 @@ struct FitDiagnostics {
 
 /// Readings that a fit used.
 struct UsedReadings {
-  std::vector<std::size_t> rows;               ///< of the scan
+  std::vector<std::size_t> rows;              ///< of the scan
   std::vector<std::vector<bool>> left_out{};  ///< by channel and row in `rows`; empty where none of a channel is
 };
 
 struct DiagnosticsOptions {
   Weight weight = Weight::cosine;
   std::optional<UsedReadings> used{};  ///< else all with theta below 90 degrees
-  std::size_t free_parameters = 0;  ///< that were fitted, for the degrees of freedom
+  std::size_t free_parameters = 0;     ///< that were fitted, for the degrees of freedom
 };
 
 /// `material` has the scan's channels. O(n log n) and one evaluation a value.

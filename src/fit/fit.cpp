@@ -7,10 +7,15 @@
 #include <set>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "brdf/evaluator.h"
 #include "fit/assemble.h"
+#include "fit/fit_evidence.h"
+#include "fit/identifiability_analysis.h"
 #include "fit/likelihood_profile.h"
 #include "fit/problem.h"
+#include "fit/scan_support.h"
 #include "fit/solve.h"
 
 namespace goniofit {
@@ -24,11 +29,94 @@ struct Fitted {
   FitPoint point;
 };
 
+void look_at(const Problem& problem, const FitPoint& point, FitEvidence& e) {
+  e.l = linearise(problem, point);
+  e.noise = reading_noise(problem, e.l);
+}
+
+// The k_fs of a channel; none where the model has none, or the settings demand one.
+std::optional<std::size_t> free_fs(const Problem& problem, std::size_t channel) {
+  for (const std::size_t j : subsurface_coefficients(problem)) {
+    const bool may_vanish = problem.channels[channel].lower[static_cast<Eigen::Index>(j)] <= 0.0;
+    if (may_vanish && problem.basis->coefficients()[j].name == name_of(Coefficient::k_fs)) return j;
+  }
+  return std::nullopt;
+}
+
+// A k_fs that the readings leave open by itself is whatever their noise makes of it, since no upper bound stops it: the
+// minimum without.
+void leave_out_unseen_fs(Problem& problem, Polished& best, FitEvidence& evidence) {
+  HeldAtZero held(problem);
+  FitPoint start = best.point;
+  for (const OpenDirection& open : evidence.identifiability.open) {
+    if (open.names != std::vector<std::string>{std::string(name_of(Coefficient::k_fs))}) continue;
+    for (std::size_t c = 0; c < problem.channels.size(); ++c) {
+      const std::optional<std::size_t> fs = free_fs(problem, c);
+      if (problem.channels[c].name != open.channel || !fs) continue;
+      held.hold(c, *fs);
+      start.coefficients[c][static_cast<Eigen::Index>(*fs)] = 0.0;
+      evidence.no_fs.push_back(c);
+    }
+  }
+  if (start.coefficients == best.point.coefficients) return;
+  const std::size_t before = best.iterations;
+  best = polish(problem, start);
+  best.iterations += before;
+}
+
+// The minimum, less what cannot be in the scan: light from below a metal, and lobes that only its noise has.
+Solved solve_sensibly(Problem& problem, const FitSettings& settings, FitEvidence& evidence) {
+  HeldAtZero held(problem);
+  const std::vector<std::size_t> opaque = opaque_channels(problem);
+  for (const std::size_t c : opaque) {
+    for (const std::size_t j : subsurface_coefficients(problem)) {
+      const auto k = static_cast<Eigen::Index>(j);
+      if (problem.channels[c].lower[k] < problem.channels[c].upper[k]) held.hold(c, j);
+    }
+  }
+  Solved solved = solve(problem, settings);
+  Polished& best = solved.best;
+  look_at(problem, best.point, evidence);
+  const LobeTest lobes = test_lobes(problem, best.point, evidence.l, evidence.noise);
+  if (!lobes.significant) {
+    best = without_lobes(problem, best);
+    look_at(problem, best.point, evidence);
+    evidence.no_lobes = lobes;
+  }
+  evidence.opaque = opaque;
+  evidence.identifiability = identify(problem, best.point, evidence.l, evidence.noise);
+  leave_out_unseen_fs(problem, best, evidence);
+  if (!evidence.no_fs.empty()) {
+    look_at(problem, best.point, evidence);
+    evidence.identifiability = identify(problem, best.point, evidence.l, evidence.noise);
+  }
+  return solved;
+}
+
+Fitted fit_as_asked(const Scan& scan, const FitSettings& settings);
+
+Fitted without_coherence(const Scan& scan, FitSettings settings, double p) {
+  settings.components->erase(Effect::coh);
+  settings.components->insert(Effect::dd);
+  settings.parameters.erase("sigma_um");  // whose bounds have no meaning then
+  settings.profile.reset();               // its names were checked
+  Fitted fitted = fit_as_asked(scan, settings);
+  fitted.result.warnings.push_back(
+      fmt::format("coh was left out: it does not stand clear of the noise (probability {:.2g} under noise alone), so "
+                  "sigma_um is not determined; the surface is too rough for these wavelengths to reflect coherently, "
+                  "or mirror readings are few",
+                  p));
+  return fitted;
+}
+
 Fitted fit_as_asked(const Scan& scan, const FitSettings& settings) {
   auto problem = std::make_unique<Problem>(scan, settings);
   if (settings.profile) check_profile_names(*problem, *settings.profile);
-  const Solved solved = solve(*problem, settings);
-  FitResult result = assemble(*problem, scan, solved.best);
+  FitEvidence evidence;
+  const Solved solved = solve_sensibly(*problem, settings, evidence);
+  FitResult result = assemble(*problem, scan, solved.best, evidence);
+  const double p = noise_makes_coherence(*problem, result.material, evidence.noise);
+  if (p >= lobe_level) return without_coherence(scan, settings, p);
   result.search_evaluations = solved.evaluations;
   result.polish_starts = solved.starts;
   result.polish_iterations = solved.iterations;
@@ -45,7 +133,13 @@ const char* open_parameter(const FitResult& r) {
     return std::find_if(r.parameters.begin(), r.parameters.end(),
                         [name](const FittedParameter& p) { return p.name == name; });
   };
-  if (d == DistributionTier::student_t) return row("tail")->value ? nullptr : "tail";
+  if (d == DistributionTier::student_t) {
+    const FittedParameter& tail = *row("tail");
+    if (tail.fixed) return nullptr;
+    // What a tail changes falls with 1/tail: no four standard deviations off nothing is no tail.
+    const bool weak = tail.value && tail.u && *tail.u > 0.25 * (*tail.value - 1.0);
+    return !tail.value || tail.at_upper || weak ? "tail" : nullptr;
+  }
   if (d == DistributionTier::rough_limit || effects.has(Effect::coh)) return nullptr;
   const FittedParameter& sigma = *row("sigma_um");
   const bool loose = sigma.u && *sigma.u > 0.5 * *sigma.value;
@@ -120,6 +214,30 @@ std::size_t free_parameters(const FitResult& r) {
 
 }  // namespace
 
+std::string_view name_of(ParameterFlag flag) noexcept {
+  switch (flag) {
+    case ParameterFlag::fixed:
+      return "fixed";
+    case ParameterFlag::at_bound:
+      return "at_bound";
+    case ParameterFlag::at_start:
+      return "at_start";
+    case ParameterFlag::degenerate:
+      return "degenerate";
+    case ParameterFlag::insignificant:
+      return "insignificant";
+    case ParameterFlag::unsupported:
+      return "unsupported";
+    case ParameterFlag::opaque:
+      break;
+  }
+  return "opaque";
+}
+
+bool FittedParameter::has(ParameterFlag flag) const noexcept {
+  return std::find(flags.begin(), flags.end(), flag) != flags.end();
+}
+
 FitResult fit(const Scan& scan, const FitSettings& settings) {
   const auto start = std::chrono::steady_clock::now();
   FitSettings own = settings;
@@ -138,10 +256,9 @@ FitResult fit(const Scan& scan, const FitSettings& settings) {
     result.selection = std::move(selection);
   }
   if (has_values(result.material)) {
-    result.diagnostics = diagnose(scan, result.material,
-                                  {.weight = result.weight,
-                                   .used = used_readings(*fitted.problem),
-                                   .free_parameters = free_parameters(result)});
+    result.diagnostics = diagnose(
+        scan, result.material,
+        {.weight = result.weight, .used = used_readings(*fitted.problem), .free_parameters = free_parameters(result)});
   }
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;

@@ -2,19 +2,35 @@
 // The main job: a scan and settings in, a material and what is to be said of it out.
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "../brdf/material.h"
 #include "../scan/scan.h"
 #include "diagnostics.h"
 #include "exclusions.h"
+#include "identifiability.h"
 #include "likelihood_profile.h"
+#include "measurement_design.h"
 #include "selection.h"
 #include "settings.h"
 
 namespace goniofit {
+
+/// What is to be minded of a parameter.
+enum class ParameterFlag : std::uint8_t {
+  fixed,
+  at_bound,
+  at_start,       ///< the loss is flat in it: it stayed where the search put it, and has no value
+  degenerate,     ///< known only together with others, or to worse than its own size: see identifiability.h
+  insignificant,  ///< of lobes that do not stand clear of the noise
+  unsupported,    ///< the scan has no readings where it would show
+  opaque          ///< of light from below the surface, where none comes back
+};
+[[nodiscard]] std::string_view name_of(ParameterFlag flag) noexcept;
 
 /// One row of the fit report.
 struct FittedParameter {
@@ -31,6 +47,10 @@ struct FittedParameter {
   bool fixed = false;
   bool derived = false;  ///< computed from others (tau from slope and sigma)
   bool at_lower = false, at_upper = false;
+  bool identifiable = true;  ///< the scan, or the settings, determine it
+  std::vector<ParameterFlag> flags{};
+
+  [[nodiscard]] bool has(ParameterFlag flag) const noexcept;
 };
 
 /// What was made least.
@@ -63,7 +83,9 @@ struct FitResult {
   double seconds = 0.0;
   bool converged = false;
   bool components_were_auto = false;
-  std::optional<Selection> selection;         ///< how "auto" chose; also the first of the notes
+  std::optional<Selection> selection;  ///< how "auto" chose; also the first of the notes
+  Identifiability identifiability;
+  std::optional<MeasurementDesign> design;    ///< filled by add_measurement_design
   std::vector<LikelihoodProfile> profiles;    ///< those that FitSettings::profile asks for
   std::optional<FitDiagnostics> diagnostics;  ///< whether the material describes the scan; none where it has no values
                                               ///< (a parameter of a peer is open)

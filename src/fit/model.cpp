@@ -166,6 +166,7 @@ void Model::weighted_values(std::size_t channel, const SmallVector& k, Eigen::Ve
 double Model::residuals(std::size_t channel, const SmallVector& k, Eigen::VectorXd& out) {
   if (!problem_.quadratic()) {
     weighted_values(channel, k, out);
+    states_[channel].weighted = out;
     return bend(channel, out);
   }
   out = -problem_.channels[channel].target;
@@ -192,6 +193,19 @@ double Model::bend(std::size_t channel, Eigen::VectorXd& out) {
   }
   state.kernel_share = slopes > 0.0 ? curvatures / slopes : 1.0;
   return loss;
+}
+
+void Model::slopes_and_deviations(std::size_t channel, const Eigen::VectorXd& residuals, Eigen::VectorXd& slopes,
+                                  Eigen::VectorXd& deviations) const {
+  const ProblemChannel& c = problem_.channels[channel];
+  slopes = problem_.weight;
+  emphasise(channel, slopes);
+  if (problem_.quadratic()) {
+    deviations = residuals.cwiseQuotient(slopes);
+  } else {
+    deviations = states_[channel].weighted.cwiseQuotient(problem_.weight) - c.value;
+  }
+  if (c.used.size() > 0) deviations = (c.used.array() > 0.0).select(deviations, 0.0);
 }
 
 void Model::by_shape(std::size_t channel, const SmallVector& k, int i, Eigen::Ref<Eigen::VectorXd> out) const {
@@ -245,6 +259,7 @@ Linearisation linearise(const Problem& problem, const FitPoint& point) {
     const SmallVector& k = point.coefficients[c];
     if (!point.optics.empty()) model.set_optics(c, point.optics[c]);
     l.loss += model.residuals(c, k, l.residuals.emplace_back());
+    model.slopes_and_deviations(c, l.residuals.back(), l.slopes.emplace_back(), l.deviations.emplace_back());
     share += model.kernel_share(c) / static_cast<double>(problem.channels.size());
     Eigen::MatrixXd& shape = l.by_shape.emplace_back(n, problem.shape.free);
     for (int z = 0; z < problem.shape.free; ++z) model.by_shape(c, k, z, shape.col(z));
@@ -259,18 +274,6 @@ Linearisation linearise(const Problem& problem, const FitPoint& point) {
   }
   l.kernel_share = share;
   return l;
-}
-
-std::vector<Eigen::VectorXd> deviations(const Problem& problem, const FitPoint& point) {
-  Model model(problem);
-  model.set_shape(point.z.data(), false);
-  std::vector<Eigen::VectorXd> out;
-  for (std::size_t c = 0; c < problem.channels.size(); ++c) {
-    if (!point.optics.empty()) model.set_optics(c, point.optics[c]);
-    model.weighted_values(c, point.coefficients[c], out.emplace_back());
-    out.back() = out.back().cwiseQuotient(problem.weight) - problem.channels[c].value;
-  }
-  return out;
 }
 
 }  // namespace goniofit

@@ -32,6 +32,10 @@ class Model {
   /// Sum of the second derivatives of the kernel over that of its slopes, by which reweighting overstates what the
   /// readings say; 1 without a kernel. Of the last call.
   [[nodiscard]] double kernel_share(std::size_t channel) const { return states_[channel].kernel_share; }
+  /// d residual / d f and f - value, one a row and both 0 where the value is left out; of the last call, which gave
+  /// `residuals`.
+  void slopes_and_deviations(std::size_t channel, const Eigen::VectorXd& residuals, Eigen::VectorXd& slopes,
+                             Eigen::VectorXd& deviations) const;
   /// d residual / d z[i]; needs set_shape(.., true).
   void by_shape(std::size_t channel, const SmallVector& k, int i, Eigen::Ref<Eigen::VectorXd> out) const;
   /// d residual / d coefficient.
@@ -70,7 +74,8 @@ class Model {
 
   /// Of a channel, at the coefficients of the last call of residuals().
   struct ChannelState {
-    Eigen::VectorXd slope;  ///< d residual / d (weight * model); empty where the emphasis is all of it
+    Eigen::VectorXd slope;     ///< d residual / d (weight * model); empty where the emphasis is all of it
+    Eigen::VectorXd weighted;  ///< weight * model; empty where the loss is quadratic
     double kernel_share = 1.0;
   };
 
@@ -91,12 +96,11 @@ struct Linearisation {
   std::vector<Eigen::MatrixXd> by_shape;        ///< samples x problem.shape.free
   std::vector<Eigen::MatrixXd> by_coefficient;  ///< samples x coefficients
   std::vector<Eigen::VectorXd> by_optics;       ///< empty where fixed
+  std::vector<Eigen::VectorXd> slopes;          ///< d residual / d f, one a row; 0 where the value is left out
+  std::vector<Eigen::VectorXd> deviations;      ///< f - value, 1/sr; 0 where it is left out
   double loss = 0.0;
   double kernel_share = 1.0;  ///< Model::kernel_share over all channels
 };
 [[nodiscard]] Linearisation linearise(const Problem& problem, const FitPoint& point);
-
-/// model - value, 1/sr, one a row, for each channel.
-[[nodiscard]] std::vector<Eigen::VectorXd> deviations(const Problem& problem, const FitPoint& point);
 
 }  // namespace goniofit

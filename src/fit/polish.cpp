@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "fit/dot.h"
+#include "fit/material_point.h"
 #include "fit/model.h"
 
 namespace goniofit {
@@ -360,28 +361,7 @@ Polished polish(const Problem& problem, const FitPoint& start, double tolerance)
 
 PolishOutcome polish_from(const Scan& scan, const FitSettings& settings, const Material& start, double tolerance) {
   const Problem problem(scan, settings);
-  FitPoint point;
-  Surface surface = start.surface;
-  for (int z = 0; z < problem.shape.free; ++z) {
-    const auto i = static_cast<std::size_t>(z);
-    const ShapeParameter& p = problem.basis->shape_parameters()[static_cast<std::size_t>(problem.shape.row[i])];
-    const double value =
-        start.model == surface_model ? surface.find(p.name)->value_or(1.0) : *start.parameters.at(p.name);
-    point.z.push_back(std::clamp(std::log(value - p.origin), problem.shape.lower[i], problem.shape.upper[i]));
-  }
-  for (std::size_t c = 0; c < problem.channels.size(); ++c) {
-    const ProblemChannel& channel = problem.channels[c];
-    SmallVector k(channel.lower.size());
-    for (Eigen::Index j = 0; j < k.size(); ++j) {
-      const BasisCoefficient& coefficient = problem.basis->coefficients()[static_cast<std::size_t>(j)];
-      k[j] =
-          std::clamp(start.channels[c].coefficient(coefficient.name).value_or(0.0), channel.lower[j], channel.upper[j]);
-    }
-    point.coefficients.push_back(k);
-    if (problem.free_optics == FreeOptics::f0) point.optics.push_back(start.channels[c].normal_reflectance());
-    if (problem.free_optics == FreeOptics::n) point.optics.push_back(start.channels[c].n.value_or(1.5));
-  }
-  const Polished polished = polish(problem, point, tolerance);
+  const Polished polished = polish(problem, point_of(problem, start), tolerance);
   PolishOutcome out{polished.point.loss, polished.converged, {}};
   const Eigen::VectorXd end = problem.shape.at(polished.point.z.data());
   for (Eigen::Index i = 0; i < end.size(); ++i) {

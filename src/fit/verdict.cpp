@@ -258,9 +258,7 @@ void Words::data() {
         d_.readings / d_.channels.size());
   }
   for (const std::size_t c : channels([](const auto& x) { return x.clipping.at_maximum > 0; })) {
-    say("{} readings of channel {} are exactly {:g}, its largest value: the detector was saturated, perhaps; leave "
-        "them "
-        "out",
+    say("{} readings of {} share its largest value {:g}: the detector saturated; exclude them (--exclude-saturated)",
         d_.channels[c].clipping.at_maximum, scan_.channels[c].name, d_.channels[c].clipping.maximum);
   }
   std::set<std::int64_t> angles;

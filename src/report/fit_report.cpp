@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "report/fit_rows.h"
+#include "report/identifiability_report.h"
 #include "report/misfit_report.h"
 #include "report/number_text.h"
 #include "report/objective_text.h"
@@ -313,6 +314,9 @@ std::string fit_report(const FitResult& result, const Scan& scan, const ReportSt
   out += fit_block(result, scan, style.color);
   if (result.diagnostics) {
     out += heading("Misfit", style.color) + misfit_block(*result.diagnostics, scan, style.color);
+  }
+  if (const std::string determined = identifiability_block(result, style.color); !determined.empty()) {
+    out += heading("What the scan determines", style.color) + determined;
   }
   if (style.show_reflectance) out += reflectance_block(result, style.color);
   if (result.selection) out += selection_block(*result.selection, style.color);

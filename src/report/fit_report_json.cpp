@@ -5,6 +5,7 @@
 #include "fit/loss.h"
 #include "report/fit_report.h"
 #include "report/fit_rows.h"
+#include "report/identifiability_report.h"
 #include "report/misfit_report.h"
 #include "report/profile_report.h"
 
@@ -28,6 +29,9 @@ Json parameter_json(const FittedParameter& p) {
   out["min"] = finite_or_null(p.lower);
   out["max"] = finite_or_null(p.upper);
   out["state"] = state_of(p);
+  out["identifiable"] = p.identifiable;
+  out["flags"] = Json::array();
+  for (const ParameterFlag flag : p.flags) out["flags"].push_back(name_of(flag));
   return out;
 }
 
@@ -143,6 +147,8 @@ std::string fit_report_json(const FitResult& result, const Scan& scan) {
                    {"seconds", result.seconds}};
   out["diagnostics"] = result.diagnostics ? misfit_json(*result.diagnostics, scan) : Json(nullptr);
   if (!result.profiles.empty()) out["profiles"] = profiles_json(result.profiles);
+  out["identifiability"] = identifiability_json(result.identifiability);
+  out["design"] = design_json(result.design);
   out["selection"] = selection_json(result.selection);
   out["reflectance"] = reflectance_json(result);
   out["notes"] = result.notes;

@@ -139,7 +139,7 @@ TEST(Diagnostics, CutOffValuesAreNamed) {
   const FitDiagnostics d = diagnose(cut, lambert({1.0}), {});
   EXPECT_GT(d.channels[0].clipping.at_zero, 100U);
   EXPECT_EQ(d.channels[0].clipping.at_maximum, 22U);
-  EXPECT_TRUE(says(d, "22 readings of channel R are exactly 1.5")) << all(d);
+  EXPECT_TRUE(says(d, "22 readings of R share its largest value 1.5: the detector saturated")) << all(d);
   EXPECT_TRUE(says(d, "readings of exactly 0 in channel R")) << all(d);
   const Scan white = in_plane_scan({20.0, 50.0}, 1.0, [](double, double) { return 1.0 / pi; });
   EXPECT_EQ(diagnose(white, lambert({1.0}), {}).channels[0].clipping.at_maximum, 0U)

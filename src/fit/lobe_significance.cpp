@@ -1,0 +1,114 @@
+#include "fit/lobe_significance.h"
+
+#include <algorithm>
+#include <boost/math/special_functions/gamma.hpp>
+#include <cmath>
+
+#include "brdf/evaluator.h"
+#include "brdf/surface_shape.h"
+
+namespace goniofit {
+
+namespace {
+
+std::vector<std::size_t> lobes_of(const Problem& problem) {
+  std::vector<std::size_t> out;
+  for (std::size_t j = 0; j < problem.basis->coefficients().size(); ++j) {
+    if (!problem.basis->coefficients()[j].constant() && is_lobe(*problem.basis, j)) out.push_back(j);
+  }
+  return out;
+}
+
+// A lobe that the settings fix, or bound away from 0, is theirs.
+bool may_vanish(const Problem& problem, const std::vector<std::size_t>& lobes) {
+  return std::all_of(problem.channels.begin(), problem.channels.end(), [&](const ProblemChannel& c) {
+    return std::all_of(lobes.begin(), lobes.end(), [&](std::size_t j) {
+      const auto at = static_cast<Eigen::Index>(j);
+      return c.lower[at] <= 0.0 && c.upper[at] >= 0.0;
+    });
+  });
+}
+
+// Of grooves alone a free shape parameter does not make a lobe's.
+bool lobes_have_free_shape(const Problem& problem) {
+  if (problem.model != surface_model) return problem.shape.free > 0;
+  const auto slope = problem.shape_index("slope");
+  return slope && problem.shape.map.row(static_cast<Eigen::Index>(*slope)).squaredNorm() > 0.0;
+}
+
+// Probability that chi-square of `degrees` exceeds `chi2`.
+double beyond(double chi2, double degrees) { return boost::math::gamma_q(0.5 * degrees, 0.5 * std::max(0.0, chi2)); }
+
+// What leaving `lobes` out of one channel costs. The residuals are linear in the coefficients (but for rho, whose
+// square the linearisation leaves out).
+double cost_of_dropping(const ProblemChannel& channel, const SmallVector& k, const Eigen::MatrixXd& jacobian,
+                        const Eigen::VectorXd& residual, const std::vector<std::size_t>& lobes) {
+  const SmallMatrix gram = jacobian.transpose() * jacobian;
+  const SmallVector rhs = jacobian.transpose() * (jacobian * k - residual);
+  SmallVector lower = channel.lower;
+  SmallVector upper = channel.upper;
+  const double with = solve_bounded(gram, rhs, lower, upper).value;
+  for (const std::size_t j : lobes) lower[static_cast<Eigen::Index>(j)] = upper[static_cast<Eigen::Index>(j)] = 0.0;
+  return std::max(0.0, solve_bounded(gram, rhs, lower, upper).value - with);
+}
+
+}  // namespace
+
+bool is_lobe(const Basis& basis, std::size_t coefficient) {
+  if (basis.coefficients()[coefficient].name == name_of(Coefficient::rho)) return false;
+  const std::vector<BasisColumn>& columns = basis.columns();
+  return std::all_of(columns.begin(), columns.end(),
+                     [&](const BasisColumn& c) { return c.coefficient != coefficient || c.reads_shape; });
+}
+
+LobeTest test_lobes(const Problem& problem, const FitPoint& point, const Linearisation& l, const ReadingNoise& noise) {
+  const std::vector<std::size_t> lobes = lobes_of(problem);
+  if (lobes.empty() || !may_vanish(problem, lobes) || !lobes_have_free_shape(problem)) return {};
+  LobeTest test;
+  double most = 0.0;
+  for (std::size_t c = 0; c < problem.channels.size(); ++c) {
+    const Eigen::MatrixXd jacobian = noise.whitener[c].asDiagonal() * l.by_coefficient[c];
+    const double cost = cost_of_dropping(problem.channels[c], point.coefficients[c], jacobian,
+                                         noise.whitener[c].cwiseProduct(l.residuals[c]), lobes);
+    test.chi2 += cost;
+    most = std::max(most, cost);
+  }
+  const auto channels = static_cast<double>(problem.channels.size());
+  test.p = std::min({1.0, beyond(test.chi2, channels), channels * beyond(most, 1.0)});
+  test.significant = test.p < lobe_level;
+  return test;
+}
+
+double noise_makes_coherence(const Problem& problem, const Material& material, const ReadingNoise& noise) {
+  const bool coherent = material.model == surface_model && material.components.has(Effect::coh);
+  if (!coherent || problem.known_sigma_um || problem.known_tau_um) return 0.0;
+  const Evaluator evaluator(material);
+  double chi2 = 0.0;
+  for (std::size_t i = 0; i < problem.readings(); ++i) {
+    if (!in_mirror_cone(problem.pairs[i], problem.solid_angle_sr)) continue;
+    for (std::size_t c = 0; c < problem.channels.size(); ++c) {
+      // The noise of the reading without it, which is what it is to be told from.
+      const double coh = evaluator.value(problem.pairs[i], c, Effect::coh);
+      const double rest = evaluator.value(problem.pairs[i], c) - coh;
+      const double least = noise.sd[c].minCoeff();
+      chi2 += std::pow(coh / std::max(noise.model[c].sd(rest), least), 2);
+    }
+  }
+  return beyond(chi2, static_cast<double>(problem.channels.size()));
+}
+
+Polished without_lobes(Problem& problem, const Polished& with) {
+  HeldAtZero held(problem);
+  FitPoint start = with.point;
+  for (const std::size_t j : lobes_of(problem)) {
+    for (std::size_t c = 0; c < problem.channels.size(); ++c) {
+      held.hold(c, j);
+      start.coefficients[c][static_cast<Eigen::Index>(j)] = 0.0;
+    }
+  }
+  Polished without = polish(problem, start);
+  without.iterations += with.iterations;
+  return without;
+}
+
+}  // namespace goniofit

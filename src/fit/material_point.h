@@ -1,0 +1,14 @@
+#pragma once
+// A material as a point of a problem's parameters.
+
+#include "../brdf/material.h"
+#include "problem.h"
+#include "search.h"
+
+namespace goniofit {
+
+/// Within the problem's bounds. A shape parameter that a surface leaves open stands at 1, a coefficient at 0; a peer
+/// has all of its shape. The loss is not filled.
+[[nodiscard]] FitPoint point_of(const Problem& problem, const Material& material);
+
+}  // namespace goniofit

@@ -11,6 +11,7 @@
 
 #include "cli/commands.h"
 #include "cli/console.h"
+#include "cli/selection_study_table.h"
 #include "cli/verify_table.h"
 #include "io/recipe_io.h"
 #include "support/error.h"
@@ -21,7 +22,7 @@ namespace {
 struct Options {
   std::vector<std::filesystem::path> recipes;
   std::optional<std::size_t> trials;
-  std::size_t random = 0, starts = 0;
+  std::size_t random = 0, starts = 0, selection = 0;
   std::optional<std::uint64_t> seed;
   bool json = false, quiet = false;
 };
@@ -49,9 +50,24 @@ void print(const std::vector<VerifyReport>& reports, const std::optional<RandomR
   to_stdout(text);
 }
 
+// A study of its own, hence alone.
+int run_selection(const Options& options) {
+  if (!options.recipes.empty() || options.random > 0)
+    throw usage_error("--selection: expected without recipes and --random");
+  const SelectionStudy study = [&] {
+    ProgressLine progress("verify", options.quiet);
+    return verify_selection(
+        options.selection, options.seed.value_or(1),
+        [&progress](std::size_t done, std::size_t total) { progress.show("choices", done, total); });
+  }();
+  to_stdout(options.json ? selection_study_json(study) : selection_study_text(study, stdout_style()));
+  return study.passed() ? 0 : static_cast<int>(ErrorKind::failed_result);
+}
+
 int run(const Options& options) {
+  if (options.selection > 0) return run_selection(options);
   if (options.recipes.empty() && options.random == 0)
-    throw usage_error("nothing to verify: name a recipe, or --random N");
+    throw usage_error("nothing to verify: name a recipe, or --random N, or --selection N");
   if (options.trials && *options.trials == 0) throw usage_error("--trials: expected 1 or more");
   // All are read first: a slip in the last recipe shall not cost the trials of those before it.
   const std::vector<Recipe> recipes = read_recipes(options);
@@ -84,6 +100,8 @@ void add_verify(CLI::App& program, int& status) {
   command->add_option("--trials", options->trials, "instead of the recipe's number")->type_name("N");
   command->add_option("--random", options->random, "recover this many random materials")->type_name("N");
   command->add_option("--starts", options->starts, "with --random: random starts of the polish alone, a material")
+      ->type_name("N");
+  command->add_option("--selection", options->selection, "choose the components of this many random scans")
       ->type_name("N");
   command->add_option("--seed", options->seed, "instead of the recipe's (1 for --random)")->type_name("INTEGER");
   command->add_flag("--json", options->json, "the tables as JSON");

@@ -354,15 +354,15 @@ Polished polish(const Problem& problem, const FitPoint& start, double tolerance)
   return result;
 }
 
-PolishOutcome polish_from(const Scan& scan, const FitSettings& settings, const Material& start) {
-  const Problem problem(scan, settings);
+FitPoint point_of(const Problem& problem, const Material& start) {
   FitPoint point;
   Surface surface = start.surface;
   for (int z = 0; z < problem.shape.free; ++z) {
     const auto i = static_cast<std::size_t>(z);
     const ShapeParameter& p = problem.basis->shape_parameters()[static_cast<std::size_t>(problem.shape.row[i])];
-    const double value =
-        start.model == surface_model ? surface.find(p.name)->value_or(1.0) : *start.parameters.at(p.name);
+    const double value = start.model == surface_model
+                             ? surface.find(p.name)->value_or(1.0)
+                             : start.parameters.at(p.name).value_or(std::clamp(1.0, p.lower, p.upper));
     point.z.push_back(std::clamp(std::log(value - p.origin), problem.shape.lower[i], problem.shape.upper[i]));
   }
   for (std::size_t c = 0; c < problem.channels.size(); ++c) {
@@ -377,7 +377,12 @@ PolishOutcome polish_from(const Scan& scan, const FitSettings& settings, const M
     if (problem.free_optics == FreeOptics::f0) point.optics.push_back(start.channels[c].normal_reflectance());
     if (problem.free_optics == FreeOptics::n) point.optics.push_back(start.channels[c].n.value_or(1.5));
   }
-  const Polished polished = polish(problem, point);
+  return point;
+}
+
+PolishOutcome polish_from(const Scan& scan, const FitSettings& settings, const Material& start) {
+  const Problem problem(scan, settings);
+  const Polished polished = polish(problem, point_of(problem, start));
   PolishOutcome out{polished.point.loss, polished.converged, {}};
   const Eigen::VectorXd end = problem.shape.at(polished.point.z.data());
   for (Eigen::Index i = 0; i < end.size(); ++i) {

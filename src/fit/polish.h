@@ -27,6 +27,10 @@ struct Polished {
 inline constexpr double result_accuracy = 1e-14, prediction_accuracy = 1e-6;
 [[nodiscard]] Polished polish(const Problem& problem, const FitPoint& start, double tolerance = result_accuracy);
 
+/// A material's parameters as a point of the problem, within its bounds; what the material leaves open is 1 for a shape
+/// parameter of the surface and 0 for a coefficient.
+[[nodiscard]] FitPoint point_of(const Problem& problem, const Material& material);
+
 /// polish() from a material's parameters, for recovery studies: its loss is what the right minimum has to reach.
 struct PolishOutcome {
   double loss = 0.0;

@@ -13,6 +13,12 @@ namespace {
 constexpr double significant = 5.0;
 constexpr double significant_chi2 = significant * significant;
 
+// Whether a set describes all that another does: flat grooves are udf.
+bool describes(EffectSet own, EffectSet rest) {
+  if (own.has(Effect::rough)) rest.erase(Effect::udf);
+  return contains(own, rest);
+}
+
 // Those of the fit as asked: the weights that the inverse-variance fit left in the problem are taken out meanwhile.
 Uncertainties uncertainties_as_asked(const Candidate& candidate) {
   Problem& problem = *candidate.problem;
@@ -50,10 +56,13 @@ bool StandingEffects::stands_anywhere(Effect effect) const {
 bool StandingEffects::refuse(const Candidate& other) const {
   const EffectSet own = candidate_.row.components;
   const EffectSet rest = other.row.components;
+  const double gain = other.row.chi2 - candidate_.row.chi2;
   if (candidate_.row.aicc >= other.row.aicc) return false;
+  // A lobe that may lie anywhere finds something to describe in noise alone.
+  if (gain < significant_chi2 && describes(own, rest)) return false;
   return std::any_of(all_effects.begin(), all_effects.end(), [&](Effect e) {
     if (!own.has(e) || rest.has(e)) return false;
-    return e == Effect::coh ? other.row.chi2 - candidate_.row.chi2 >= significant_chi2 : stands_anywhere(e);
+    return e == Effect::coh ? gain >= significant_chi2 : stands_anywhere(e);
   });
 }
 

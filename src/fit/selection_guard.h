@@ -15,7 +15,8 @@ class StandingEffects {
 
   /// Whether another set lacks one of them although this one has the smaller AICc: of two sets that describe the
   /// readings in different ways, none within the other, each leaves out what the other calls significant, and the
-  /// readings have to say which is right. coh, without a coefficient of its own, stands where the other's chi² is
+  /// readings have to say which is right. A set that describes all that the other does (grooves: udf too) needs a chi²
+  /// smaller by 25 besides. coh, without a coefficient of its own, stands where the other's chi² is
   /// larger by 25.
   [[nodiscard]] bool refuse(const Candidate& other) const;
   /// By channel.

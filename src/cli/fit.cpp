@@ -8,7 +8,10 @@
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
+
+#include <nlohmann/json.hpp>
 
 #include "cli/commands.h"
 #include "cli/console.h"
@@ -16,8 +19,11 @@
 #include "cli/fit_inputs.h"
 #include "cli/fit_outputs.h"
 #include "cli/outputs.h"
+#include "fit/comparison.h"
 #include "io/exr_table.h"
 #include "io/material_io.h"
+#include "report/comparison_criteria_report.h"
+#include "report/comparison_report.h"
 #include "report/plot.h"
 #include "support/error.h"
 #include "support/text.h"
@@ -77,15 +83,54 @@ void write_outputs(const Options& options, const Scan& scan, const FitResult& re
   draw_fit_outputs(options.extra, scan, result);
 }
 
-void print_result(const Options& options, const Scan& scan, const FitResult& result) {
+// The fit, and where `--model auto` chose it, what it was compared with.
+struct Outcome {
+  FitResult result;
+  std::optional<Comparison> comparison;
+};
+
+// Leaves the settings of the model chosen. Profiles are its alone.
+Outcome chosen_fit(const Options& options, const Scan& scan, FitSettings& asked) {
+  FitSettings settings = asked;
+  settings.model = surface_model;
+  settings.profile.reset();
+  const ModelList list = models_to_choose_from(scan, settings);
+  ProgressLine progress("comparing", options.quiet);
+  Outcome outcome;
+  outcome.comparison = compare(
+      scan, settings, list.models,
+      [&](const std::string& model, std::size_t done, std::size_t total) { progress.show(model, done, total); });
+  Comparison& comparison = *outcome.comparison;
+  comparison.notes.insert(comparison.notes.begin(), list.notes.begin(), list.notes.end());
+  const ComparedFit& chosen = *by_criteria(comparison).front();
+  FitSettings own = settings_for_model(chosen.model, settings);
+  own.profile = asked.profile;
+  asked = own;
+  outcome.result = own.profile ? fit(scan, own) : chosen.fit;
+  outcome.result.notes.insert(outcome.result.notes.begin(), "model auto: " + comparison.verdict);
+  return outcome;
+}
+
+std::string json_of(const Outcome& outcome, const Scan& scan) {
+  const std::string report = fit_report_json(outcome.result, scan);
+  if (!outcome.comparison) return report;
+  auto json = nlohmann::ordered_json::parse(report);
+  json["comparison"] = nlohmann::ordered_json::parse(comparison_json(*outcome.comparison, scan));
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n';
+}
+
+void print_result(const Options& options, const Scan& scan, const Outcome& outcome) {
+  const FitResult& result = outcome.result;
   if (options.json) {
-    to_stdout(fit_report_json(result, scan));
+    to_stdout(json_of(outcome, scan));
   } else if (options.has_output && is_stdout(options.output)) {
     // Standard output is the material's: the report goes beside it.
     if (!options.quiet) std::cerr << fit_report(result, scan, {.color = false, .show_reflectance = true});
     to_stdout(to_json(result.material));
   } else {
-    to_stdout(fit_report(result, scan, stdout_style()));
+    const std::string table =
+        outcome.comparison ? comparison_report(*outcome.comparison, scan, stdout_style()) + '\n' : std::string();
+    to_stdout(table + fit_report(result, scan, stdout_style()));
   }
 }
 
@@ -102,17 +147,23 @@ int run(const Options& options) {
   const PlotOptions plot = plot_options(options);
   const Scan scan = read_scans(options.scan, options.flags, recipe, options.name);
   for (const Path& path : options.plots) check_plot(path, scan, plot);
-  FitSettings settings = settings_of(options.flags, recipe, scan);
+  FitFlags flags = options.flags;
+  const bool choose = flags.model == "auto";
+  if (choose) flags.model = surface_model;
+  FitSettings settings = settings_of(flags, recipe, scan);
   apply_fit_outputs(options.extra, settings);
-  const FitResult result = [&] {
+  Outcome outcome;
+  if (choose) {
+    outcome = chosen_fit(options, scan, settings);
+  } else {
     const ProgressLine progress("fitting " + in_quotes(scan.name), options.quiet);
-    FitResult fitted = fit(scan, settings);
-    add_reflectance(fitted, scan);
-    if (options.json || is_weak(fitted)) add_measurement_design(fitted, scan, settings);
-    return fitted;
-  }();
+    outcome.result = fit(scan, settings);
+  }
+  FitResult& result = outcome.result;
+  add_reflectance(result, scan);
+  if (options.json || is_weak(result)) add_measurement_design(result, scan, settings);
   write_outputs(options, scan, result);
-  print_result(options, scan, result);
+  print_result(options, scan, outcome);
   const bool described = !result.diagnostics || result.diagnostics->verdict != FitVerdict::fails;
   return result.converged && described ? 0 : static_cast<int>(ErrorKind::failed_result);
 }

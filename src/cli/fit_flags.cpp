@@ -183,7 +183,10 @@ void apply_loss(const FitFlags& flags, FitSettings& settings) {
 }  // namespace
 
 void add_model_flag(CLI::App& command, FitFlags& flags) {
-  command.add_option("--model", flags.model, "surface (default), or a peer that `goniofit models` names")
+  command
+      .add_option("--model", flags.model,
+                  "surface (default), a peer that `goniofit models` names, or auto: the simplest "
+                  "model that the scan does not tell from the best")
       ->type_name("NAME")
       ->group("Model");
 }

@@ -12,6 +12,7 @@
 #include "cli/commands.h"
 #include "cli/console.h"
 #include "cli/outputs.h"
+#include "cli/selection_study_table.h"
 #include "io/recipe_io.h"
 #include "report/gnuplot.h"
 #include "report/verify_report.h"
@@ -23,7 +24,7 @@ namespace {
 struct Options {
   std::vector<std::filesystem::path> recipes;
   std::optional<std::size_t> trials;
-  std::size_t random = 0, starts = 0, threads = 0;
+  std::size_t random = 0, starts = 0, selection = 0, threads = 0;
   std::optional<std::uint64_t> seed;
   double level = default_level;
   std::vector<std::filesystem::path> plots;
@@ -42,10 +43,24 @@ std::vector<Recipe> read_recipes(const Options& options) {
   return recipes;
 }
 
+// A study of its own, hence alone.
+int run_selection(const Options& options) {
+  if (!options.recipes.empty() || options.random > 0)
+    throw usage_error("--selection: expected without recipes and --random");
+  const SelectionStudy study = [&] {
+    ProgressLine progress("verify", options.quiet);
+    return verify_selection(
+        options.selection, options.seed.value_or(1),
+        [&progress](std::size_t done, std::size_t total) { progress.show("choices", done, total); });
+  }();
+  to_stdout(options.json ? selection_study_json(study) : selection_study_text(study, stdout_style()));
+  return study.passed() ? 0 : static_cast<int>(ErrorKind::failed_result);
+}
+
 // All that could fail for a slip of the user's is looked at before the trials, which may take an hour.
 void check(const Options& options, const std::vector<Recipe>& recipes) {
   if (options.recipes.empty() && options.random == 0)
-    throw usage_error("nothing to verify: name a recipe, or --random N");
+    throw usage_error("nothing to verify: name a recipe, or --random N, or --selection N");
   if (options.trials && *options.trials == 0) throw usage_error("--trials: expected 1 or more");
   if (!(options.level > 0.0 && options.level < 1.0)) throw usage_error("--level: expected a number between 0 and 1");
   if (options.recipes.empty() && !options.plots.empty()) throw usage_error("--plot: there is no recipe to draw");
@@ -58,6 +73,7 @@ void check(const Options& options, const std::vector<Recipe>& recipes) {
 }
 
 int run(const Options& options) {
+  if (options.selection > 0) return run_selection(options);
   // All are read first: a slip in the last recipe shall not cost the trials of those before it.
   const std::vector<Recipe> recipes = read_recipes(options);
   check(options, recipes);
@@ -93,6 +109,8 @@ void add_verify(CLI::App& program, int& status) {
   command->add_option("--trials", options->trials, "instead of the recipe's number")->type_name("N");
   command->add_option("--random", options->random, "recover this many random materials")->type_name("N");
   command->add_option("--starts", options->starts, "with --random: random starts of the polish alone, a material")
+      ->type_name("N");
+  command->add_option("--selection", options->selection, "choose the components of this many random scans")
       ->type_name("N");
   command->add_option("--seed", options->seed, "instead of the recipe's (1 for --random)")->type_name("INTEGER");
   command

@@ -9,6 +9,7 @@
 
 #include "brdf/effects.h"
 #include "brdf/named_terms.h"
+#include "fit/comparison_criteria.h"
 #include "peers/peers.h"
 #include "support/error.h"
 #include "support/text.h"
@@ -20,7 +21,10 @@ namespace {
 constexpr std::array<std::string_view, 14> isotropic_models{
     "lambert", "oren-nayar",    "blinn-phong", "neumann-neumann", "lafortune-1",    "lafortune-2", "lafortune-3",
     "ward",    "cook-torrance", "ggx",         "schlick-single",  "schlick-double", "rough+dd",    "li-torrance"};
+constexpr std::array<std::string_view, 7> choosable_models{
+    "li-torrance", "li-torrance-student-t", "he-torrance", "ggx", "cook-torrance", "ward", "lafortune-1"};
 constexpr std::string_view oren_nayar = "oren-nayar";
+constexpr std::string_view surface_li_torrance = "li-torrance";
 constexpr std::string_view long_tails = "li-torrance-student-t";
 
 // "rough+dd" as effects; nullopt where a part is none.
@@ -107,10 +111,19 @@ void check_models(const FitSettings& settings, const std::vector<std::string>& m
   }
 }
 
-ComparedFit fitted(const Scan& scan, const FitSettings& settings, const std::string& model) {
-  ComparedFit row{model, {}, 0};
+// Whether these are Li & Torrance's effects with other terms: with the components that were chosen for the published
+// ones they differ in the terms alone.
+bool other_terms(const std::string& model) {
+  return model != surface_li_torrance && (model == long_tails || named_terms(model).has_value());
+}
+
+ComparedFit fitted(const Scan& scan, const FitSettings& settings, const std::string& model,
+                   const std::optional<EffectSet>& chosen) {
+  ComparedFit row{model, {}, 0, {}};
+  FitSettings own = settings_for_model(model, settings);
+  if (other_terms(model) && !own.components && chosen) own.components = chosen;
   try {
-    row.fit = fit(scan, settings_for_model(model, settings));
+    row.fit = fit(scan, own);
   } catch (const Error& error) {
     throw Error(error.kind(), "model " + model + ": " + error.what());
   }
@@ -138,6 +151,14 @@ ModelList default_models(const Scan& scan, const FitSettings& settings) {
   return list;
 }
 
+ModelList models_to_choose_from(const Scan& scan, const FitSettings& settings) {
+  ModelList list = default_models(scan, settings);
+  std::erase_if(list.models, [](const std::string& model) {
+    return std::find(choosable_models.begin(), choosable_models.end(), model) == choosable_models.end();
+  });
+  return list;
+}
+
 FitSettings settings_for_model(const std::string& model, const FitSettings& settings) {
   FitSettings own = settings;
   choose_model(model, own);
@@ -152,9 +173,12 @@ Comparison compare(const Scan& scan, const FitSettings& settings, const std::vec
                    const ComparisonProgress& progress) {
   check_models(settings, models);
   Comparison result;
+  std::optional<EffectSet> chosen;
   for (const std::string& model : models) {
     if (progress) progress(model, result.rows.size(), models.size());
-    result.rows.push_back(fitted(scan, settings, model));
+    result.rows.push_back(fitted(scan, settings, model, chosen));
+    const FitResult& latest = result.rows.back().fit;
+    if (model == surface_li_torrance && latest.components_were_auto) chosen = latest.selection->chosen();
     for (const auto& [key, setting] : settings.parameters) {
       if (has_parameter(result.rows.back().fit.material.model, parameter_of(key))) continue;
       result.notes.push_back(model + " has no parameter " + parameter_of(key) + " and goes without its setting");
@@ -162,6 +186,7 @@ Comparison compare(const Scan& scan, const FitSettings& settings, const std::vec
   }
   std::stable_sort(result.rows.begin(), result.rows.end(),
                    [](const ComparedFit& a, const ComparedFit& b) { return a.fit.loss < b.fit.loss; });
+  add_criteria(scan, settings, result);
   return result;
 }
 

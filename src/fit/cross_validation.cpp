@@ -5,6 +5,7 @@
 #include <map>
 #include <utility>
 
+#include "fit/linear_step.h"
 #include "fit/model.h"
 #include "fit/polish.h"
 #include "geometry/angles.h"
@@ -50,39 +51,75 @@ AngleGroups angle_groups(const Problem& problem) {
   return groups;
 }
 
-Eigen::VectorXd group_scores(const Problem& problem, const FitPoint& point, const AngleGroups& groups) {
-  Model model(problem);
+namespace {
+
+// What a point makes of the readings, group by group: their scores and their squares.
+struct Judged {
+  Eigen::VectorXd scores, squares;
+};
+
+Judged judge(Model& model, const Problem& problem, const FitPoint& point, const AngleGroups& groups) {
   model.set_shape(point.z.data(), false);
-  Eigen::VectorXd scores = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(groups.count()));
+  const auto count = static_cast<Eigen::Index>(groups.count());
+  Judged judged{Eigen::VectorXd::Zero(count), Eigen::VectorXd::Zero(count)};
   Eigen::VectorXd r;
   for (std::size_t c = 0; c < problem.channels.size(); ++c) {
     if (!point.optics.empty()) model.set_optics(c, point.optics[c]);
     model.residuals(c, point.coefficients[c], r);
     for (std::size_t i = 0; i < groups.of.size(); ++i) {
-      const double deviation = r[static_cast<Eigen::Index>(i)];
-      scores[static_cast<Eigen::Index>(groups.of[i])] += score_scale * std::log1p(deviation * deviation / tail_freedom);
+      const double square = r[static_cast<Eigen::Index>(i)] * r[static_cast<Eigen::Index>(i)];
+      const auto g = static_cast<Eigen::Index>(groups.of[i]);
+      judged.scores[g] += score_scale * std::log1p(square / tail_freedom);
+      judged.squares[g] += square;
     }
+  }
+  return judged;
+}
+
+FitPoint polished_without(Problem& problem, const FitPoint& start, const AngleGroups& groups, std::size_t group) {
+  std::vector<Eigen::VectorXd> all = emphasis_of(problem);
+  std::vector<Eigen::VectorXd> others = all;
+  for (Eigen::VectorXd& emphasis : others) {
+    for (std::size_t i = 0; i < groups.of.size(); ++i) {
+      if (groups.of[i] == group) emphasis[static_cast<Eigen::Index>(i)] = 0.0;
+    }
+  }
+  problem.emphasise(std::move(others));
+  FitPoint point = polish(problem, start, prediction_accuracy).point;
+  problem.emphasise(std::move(all));
+  return point;
+}
+
+}  // namespace
+
+Eigen::VectorXd group_scores(const Problem& problem, const FitPoint& point, const AngleGroups& groups) {
+  Model model(problem);
+  return judge(model, problem, point, groups).scores;
+}
+
+Eigen::VectorXd left_out_scores(Problem& problem, const FitPoint& start, const AngleGroups& groups) {
+  // In units of the noise: what a fit may miss its minimum by, far below what a choice reads from it.
+  constexpr double absolute = 0.5, relative = 1e-4;
+  const GroupedEquations equations(problem, start, groups.of, groups.count());
+  Model model(problem);
+  Eigen::VectorXd scores(static_cast<Eigen::Index>(groups.count()));
+  for (std::size_t g = 0; g < groups.count(); ++g) {
+    const auto own = static_cast<Eigen::Index>(g);
+    const GroupedEquations::Step step = equations.without(g);
+    Judged judged = judge(model, problem, step.point, groups);
+    const double others = judged.squares.sum() - judged.squares[own];
+    // Not where the linearisation does not hold so far, or is none (a value left the range of doubles).
+    if (!(std::fabs(others - step.promised) <= absolute + relative * step.promised)) {
+      judged = judge(model, problem, polished_without(problem, start, groups, g), groups);
+    }
+    scores[own] = judged.scores[own];
   }
   return scores;
 }
 
-Eigen::VectorXd left_out_scores(Problem& problem, const FitPoint& start, const AngleGroups& groups) {
-  const std::vector<Eigen::VectorXd> all = emphasis_of(problem);
-  Eigen::VectorXd scores(static_cast<Eigen::Index>(groups.count()));
-  for (std::size_t g = 0; g < groups.count(); ++g) {
-    std::vector<Eigen::VectorXd> others = all;
-    for (Eigen::VectorXd& emphasis : others) {
-      for (std::size_t i = 0; i < groups.of.size(); ++i) {
-        if (groups.of[i] == g) emphasis[static_cast<Eigen::Index>(i)] = 0.0;
-      }
-    }
-    problem.emphasise(std::move(others));
-    const FitPoint point = polish(problem, start, prediction_accuracy).point;
-    problem.emphasise(all);
-    const auto own = static_cast<Eigen::Index>(g);
-    scores[own] = group_scores(problem, point, groups)[own];
-  }
-  return scores;
+double paired_error(const Eigen::VectorXd& differences) {
+  const auto groups = static_cast<double>(differences.size());
+  return std::sqrt(groups / (groups - 1.0) * (differences.array() - differences.mean()).square().sum());
 }
 
 }  // namespace goniofit

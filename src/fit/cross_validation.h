@@ -29,7 +29,11 @@ struct AngleGroups {
 [[nodiscard]] Eigen::VectorXd group_scores(const Problem& problem, const FitPoint& point, const AngleGroups& groups);
 
 /// The scores of each group's readings where the fit to all other groups predicts them. `start` is the fit to all of
-/// them: each fit begins there. The problem's emphasis is as before afterwards.
+/// them: each fit is one step from there within the bounds, and where the quadratic that gave the step does not hold, a
+/// polish. The problem's emphasis is as before afterwards.
 [[nodiscard]] Eigen::VectorXd left_out_scores(Problem& problem, const FitPoint& start, const AngleGroups& groups);
+
+/// Standard error of the sum of paired differences, one a group, each of them a draw.
+[[nodiscard]] double paired_error(const Eigen::VectorXd& differences);
 
 }  // namespace goniofit

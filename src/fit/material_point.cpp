@@ -11,8 +11,9 @@ FitPoint point_of(const Problem& problem, const Material& material) {
   for (int z = 0; z < problem.shape.free; ++z) {
     const auto i = static_cast<std::size_t>(z);
     const ShapeParameter& p = problem.basis->shape_parameters()[static_cast<std::size_t>(problem.shape.row[i])];
-    const double value =
-        material.model == surface_model ? surface.find(p.name)->value_or(1.0) : *material.parameters.at(p.name);
+    const double value = material.model == surface_model
+                             ? surface.find(p.name)->value_or(1.0)
+                             : material.parameters.at(p.name).value_or(std::clamp(1.0, p.lower, p.upper));
     point.z.push_back(std::clamp(std::log(value - p.origin), problem.shape.lower[i], problem.shape.upper[i]));
   }
   for (std::size_t c = 0; c < problem.channels.size(); ++c) {

@@ -7,8 +7,8 @@
 
 namespace goniofit {
 
-/// Within the problem's bounds. A shape parameter that a surface leaves open stands at 1, a coefficient at 0; a peer
-/// has all of its shape. The loss is not filled.
+/// Within the problem's bounds. A shape parameter that the material leaves open stands at 1, a coefficient at 0. The
+/// loss is not filled.
 [[nodiscard]] FitPoint point_of(const Problem& problem, const Material& material);
 
 }  // namespace goniofit

@@ -82,4 +82,10 @@ Noise estimate_noise(const Eigen::VectorXd& f, const Eigen::VectorXd& residual) 
   return {std::sqrt(r2), std::sqrt(a2)};
 }
 
+double robust_spread(const Eigen::VectorXd& deviates) {
+  if (deviates.size() == 0) return 0.0;
+  const Eigen::VectorXd size = deviates.cwiseAbs();
+  return sigma_of_median * median({size.begin(), size.end()});
+}
+
 }  // namespace goniofit

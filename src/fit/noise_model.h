@@ -14,4 +14,7 @@ namespace goniofit {
 /// round-off. Zeros of no readings.
 [[nodiscard]] Noise estimate_noise(const Eigen::VectorXd& f, const Eigen::VectorXd& residual);
 
+/// Standard deviation of normal deviates about 0, from the median of their size: outliers do not count.
+[[nodiscard]] double robust_spread(const Eigen::VectorXd& deviates);
+
 }  // namespace goniofit

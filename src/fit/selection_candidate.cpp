@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 #include <utility>
 
 #include "fit/model.h"
+#include "fit/profile.h"
 #include "fit/solve.h"
 
 namespace goniofit {
@@ -71,14 +74,33 @@ void add_criteria(Candidate& candidate) {
   row.aicc = row.chi2 + 2.0 * p + (n - p > 1.0 ? 2.0 * p * (p + 1.0) / (n - p - 1.0) : 2.0 * p * p);
 }
 
+// The larger set's shape, or nullopt where it has other shape parameters.
+std::optional<std::vector<double>> shape_from(const Problem& problem, const Candidate& larger) {
+  const Problem& from = *larger.problem;
+  if (from.shape.free != problem.shape.free) return std::nullopt;
+  for (std::size_t z = 0; z < problem.shape.row.size(); ++z) {
+    const auto name = [z](const Problem& p) {
+      return p.basis->shape_parameters()[static_cast<std::size_t>(p.shape.row[z])].name;
+    };
+    if (name(problem) != name(from)) return std::nullopt;
+  }
+  return larger.asked.z;
+}
+
 }  // namespace
 
-Candidate fit_candidate(const Scan& scan, const FitSettings& settings, EffectSet set) {
+Candidate fit_candidate(const Scan& scan, const FitSettings& settings, EffectSet set, const Candidate* larger) {
   FitSettings own = settings;
   own.components = set;
   Candidate candidate;
   candidate.problem = std::make_unique<Problem>(scan, own);
-  candidate.asked = solve(*candidate.problem, prediction_accuracy).best.point;
+  const Problem& problem = *candidate.problem;
+  const auto shape = larger == nullptr ? std::nullopt : shape_from(problem, *larger);
+  if (shape) {
+    candidate.asked = polish(problem, Profile(problem).point(shape->data()), prediction_accuracy).point;
+  } else {
+    candidate.asked = solve(problem, prediction_accuracy).best.point;
+  }
   candidate.weighted = candidate.asked;
   candidate.row.components = set;
   candidate.row.loss = candidate.asked.loss;
@@ -108,6 +130,33 @@ void fit_weighted(Candidate& candidate, const Eigen::VectorXd& variance) {
   candidate.problem->emphasise(emphasis_for(*candidate.problem, variance));
   candidate.weighted = polish(*candidate.problem, candidate.weighted, prediction_accuracy).point;
   add_criteria(candidate);
+}
+
+Eigen::VectorXd stated_variance(const Problem& problem) {
+  const auto n = static_cast<Eigen::Index>(problem.samples());
+  Eigen::VectorXd variance(n * static_cast<Eigen::Index>(problem.channels.size()));
+  for (std::size_t c = 0; c < problem.channels.size(); ++c) {
+    const Eigen::VectorXd& u = problem.channels[c].u;
+    if (u.size() == 0) return {};
+    variance.segment(static_cast<Eigen::Index>(c) * n, n) = u.cwiseAbs2();
+  }
+  return variance;
+}
+
+void add_weights(const std::vector<SelectionRow*>& rows) {
+  const auto add = [&rows](double SelectionRow::*criterion, double SelectionRow::*weight) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const SelectionRow* row : rows) least = std::min(least, row->*criterion);
+    double sum = 0.0;
+    for (SelectionRow* row : rows) sum += row->*weight = std::exp(0.5 * (least - row->*criterion));
+    for (SelectionRow* row : rows) row->*weight /= sum;
+  };
+  add(&SelectionRow::aicc, &SelectionRow::aicc_weight);
+  add(&SelectionRow::bic, &SelectionRow::bic_weight);
+}
+
+bool as_good(const SelectionRow& row, const SelectionRow& best) {
+  return row.difference && (*row.difference <= *row.difference_error || row.bic <= best.bic);
 }
 
 bool contains(EffectSet larger, EffectSet smaller) noexcept {

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "report/comparison_criteria_report.h"
 #include "report/fit_rows.h"
 #include "report/number_text.h"
 #include "report/text_table.h"
@@ -55,6 +56,25 @@ Json terms_json(const Material& material) {
           {"distribution", name_of(material.terms.distribution)}};
 }
 
+Json criteria_json(const SelectionRow& r) {
+  return {{"free_parameters", r.free_parameters},
+          {"chi2", finite_or_null(r.chi2)},
+          {"aicc", finite_or_null(r.aicc)},
+          {"bic", finite_or_null(r.bic)},
+          {"aicc_weight", finite_or_null(r.aicc_weight)},
+          {"bic_weight", finite_or_null(r.bic_weight)},
+          {"cross_validated", value_or_null(r.cross_validated)},
+          {"difference", value_or_null(r.difference)},
+          {"difference_error", value_or_null(r.difference_error)},
+          {"chosen", r.chosen}};
+}
+
+// Null where the scan states its own.
+Json noise_json(const Comparison& comparison) {
+  if (!comparison.noise) return nullptr;
+  return {{"relative", comparison.noise->relative}, {"additive", comparison.noise->additive}};
+}
+
 Json row_json(const ComparedFit& row, double least) {
   const FitResult& fit = row.fit;
   Json out{{"model", row.model},
@@ -66,7 +86,8 @@ Json row_json(const ComparedFit& row, double least) {
            {"seconds", fit.seconds},
            {"remarks", remarks_of(row)},
            {"components", effect_names(fit.material.components)},
-           {"terms", terms_json(fit.material)}};
+           {"terms", terms_json(fit.material)},
+           {"criteria", criteria_json(row.criteria)}};
   out["parameters"] = Json::array();
   for (const FittedParameter& p : fit.parameters) {
     out["parameters"].push_back({{"name", p.name},
@@ -118,6 +139,7 @@ std::string comparison_report(const Comparison& comparison, const Scan& scan, co
   out += table.str(2, style.color);
   out += tinted("  (loss: the weighted sum of squares that each fit makes least; free: parameters that it found)\n",
                 Tint::faint, style.color);
+  out += comparison_criteria_block(comparison, style.color);
   for (const std::string& note : comparison.notes) out += "  " + wrapped(printable(note), 2) + '\n';
   return out;
 }
@@ -129,6 +151,11 @@ std::string comparison_json(const Comparison& comparison, const Scan& scan) {
            {"channels", scan.channels.size()},
            {"rows", Json::array()}};
   for (const ComparedFit& row : comparison.rows) out["rows"].push_back(row_json(row, least_loss(comparison)));
+  out["verdict"] = comparison.verdict;
+  out["noise"] = noise_json(comparison);
+  out["stated_uncertainties"] = !comparison.verdict.empty() && !comparison.noise;
+  out["u_scale"] = comparison.u_scale;
+  out["groups"] = comparison.groups;
   out["notes"] = comparison.notes;
   return out.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
 }

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "report/comparison_criteria_report.h"
 #include "report/fit_rows.h"
 #include "report/identifiability_report.h"
 #include "report/misfit_report.h"
@@ -286,8 +287,11 @@ std::string selection_block(const Selection& selection, bool color) {
     table.add_row(std::move(cells));
   }
   std::string out = heading("Choice of the components", color) + table.str(indent, color);
-  std::string text = fmt::format("noise estimated: {:.2g} % of the value and {:.2g} sr⁻¹; weight by the BIC",
-                                 100.0 * selection.noise.relative, selection.noise.additive);
+  std::string text = noise_text(selection.noise, selection.u_scale) + "; weight by the BIC";
+  if (!selection.channels.empty()) {
+    text += fmt::format("; compared on {}, which tell most, and the choice confirmed on all channels",
+                        fmt::join(selection.channels, ", "));
+  }
   if (!selection.not_fitted.empty()) {
     text += fmt::format("; {} not tried, being parts of what describes the scan far worse",
                         count_text(selection.not_fitted.size(), "more set was", "more sets were"));

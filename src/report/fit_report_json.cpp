@@ -77,7 +77,13 @@ Json selection_json(const std::optional<Selection>& selection) {
   if (!selection) return nullptr;
   Json out;
   out["reason"] = selection->reason;
-  out["noise"] = {{"relative", selection->noise.relative}, {"additive", selection->noise.additive}};
+  out["noise"] = nullptr;
+  if (selection->noise) {
+    out["noise"] = {{"relative", selection->noise->relative}, {"additive", selection->noise->additive}};
+  }
+  out["stated_uncertainties"] = !selection->noise;
+  out["u_scale"] = selection->u_scale;
+  out["channels"] = selection->channels;
   out["groups"] = selection->groups;
   out["sets"] = Json::array();
   for (const SelectionRow& row : selection->rows) {

@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <numeric>
+#include <string>
 
 #include "fit/fit.h"
 #include "support/error_message.h"
@@ -38,7 +40,8 @@ TEST(Selection, FindsTheEffectsOfThePapersSamples) {
       const Scan scan = simulate(without_wavelengths(truth), Sampling::incidence_plane, two_percent, seed);
       const Selection s = select_components(scan, {});
       EXPECT_EQ(s.chosen(), truth.components) << truth.name << ": " << s.reason;
-      EXPECT_NEAR(s.noise.relative, 0.02, 0.003) << truth.name;
+      ASSERT_TRUE(s.noise);
+      EXPECT_NEAR(s.noise->relative, 0.02, 0.003) << truth.name;
       EXPECT_EQ(s.groups, 5U);
     }
   }
@@ -126,6 +129,60 @@ TEST(Selection, WithFewIncidenceAnglesTheBicDecides) {
     EXPECT_GE(row.bic, selection.rows.front().bic);
     EXPECT_FALSE(row.cross_validated);
   }
+}
+
+// Grooves can stand in for udf, neither set being within the other.
+TEST(Selection, DoesNotLetGroovesStandInForWhatIsSignificant) {
+  Material m = test::ground_glass_41();
+  m.surface = test::slope_alone(0.08577);
+  const std::array<double, 3> k_dd{0.2002, 0.1239, 0.04841};
+  const std::array<double, 3> k_udf{0.0433, 0.07142, 0.03072};
+  for (std::size_t c = 0; c < 3; ++c) {
+    m.channels[c].coefficient(Coefficient::k_dd) = k_dd[c];
+    m.channels[c].coefficient(Coefficient::k_udf) = k_udf[c];
+  }
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    const Scan scan = simulate(without_wavelengths(m), Sampling::hemisphere, two_percent, seed);
+    const Selection s = select_components(scan, {});
+    EXPECT_TRUE(s.chosen().has(Effect::udf)) << s.reason;
+  }
+}
+
+TEST(Selection, TakesTheScansOwnUncertainties) {
+  const Noise noise{0.01, 0.002};
+  const Material truth = red_channel(without_wavelengths(test::laser_paper_73()));
+  Scan scan = simulate(truth, Sampling::incidence_plane, noise, 4, true);
+  const Selection stated = select_components(scan, {});
+  EXPECT_FALSE(stated.noise);
+  EXPECT_LT(stated.u_scale, 1.1);
+  EXPECT_EQ(stated.chosen(), truth.components);
+  EXPECT_NEAR(stated.rows.front().chi2 / static_cast<double>(scan.size()), 1.0, 0.15);
+
+  for (double& u : scan.channels.front().u) u /= 3.0;  // too small: what is left over is no evidence
+  const Selection too_small = select_components(scan, {});
+  EXPECT_NEAR(too_small.u_scale, 3.0, 0.4);
+  EXPECT_EQ(too_small.chosen(), truth.components);
+}
+
+// Ten bands, of which one alone shows light from below the surface.
+TEST(Selection, OfManyChannelsSomeSpeakForAll) {
+  Material m = red_channel(without_wavelengths(test::laser_paper_73()));
+  m.components = {Effect::dd, Effect::udf, Effect::uds};
+  const MaterialChannel common = m.channels.front();
+  m.channels.clear();
+  for (int band = 0; band < 10; ++band) {
+    MaterialChannel c = common;
+    c.name = "band" + std::to_string(band);
+    c.coefficient(Coefficient::k_udf) = 0.2 + 0.01 * band;
+    c.coefficient(Coefficient::k_uds) = band == 7 ? 0.6 : 0.0;
+    m.channels.push_back(c);
+  }
+  const Scan scan = simulate(m, Sampling::incidence_plane, two_percent, 1);
+  const Selection s = select_components(scan, {});
+  EXPECT_EQ(s.chosen(), m.components) << s.reason;
+  EXPECT_GE(s.channels.size(), 6U);
+  EXPECT_LT(s.channels.size(), 10U);
+  EXPECT_NE(std::find(s.channels.begin(), s.channels.end(), "band7"), s.channels.end());
 }
 
 }  // namespace

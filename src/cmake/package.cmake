@@ -14,9 +14,9 @@ set(GONIOFIT_PUBLIC_HEADERS
   basis/basis.h
   peers/peers.h peers/schlick_sampling.h peers/rational_fraction.h peers/approximation_quality.h
   brdf/material.h brdf/evaluator.h brdf/sampler.h brdf/sampling_lobes.h brdf/sampling_rows.h
-  scan/scan.h
-  fit/settings.h fit/fit.h fit/residual_tests.h fit/diagnostics.h fit/selection.h fit/comparison.h
-  io/scan_reader.h io/material_io.h io/recipe_io.h io/optical_constants.h io/exr_table.h
+  scan/scan.h scan/clipping.h scan/reflectance_readings.h
+  fit/settings.h fit/loss.h fit/exclusions.h fit/likelihood_profile.h fit/identifiability.h fit/measurement_design.h fit/fit.h fit/residual_tests.h fit/diagnostics.h fit/selection.h fit/comparison.h
+  io/scan_reader.h io/material_io.h io/recipe_io.h io/optical_constants.h io/reflectance_reader.h io/exr_table.h
   synthetic/simulate.h synthetic/verify.h synthetic/judgement.h synthetic/recovery.h synthetic/exact_tests.h
   report/fit_report.h report/comparison_report.h report/verify_report.h report/plot.h)
 foreach(header IN LISTS GONIOFIT_PUBLIC_HEADERS)

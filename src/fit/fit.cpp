@@ -115,7 +115,7 @@ Fitted fit_as_asked(const Scan& scan, const FitSettings& settings) {
   FitEvidence evidence;
   const Solved solved = solve_sensibly(*problem, settings, evidence);
   FitResult result = assemble(*problem, scan, solved.best, evidence);
-  const double p = noise_makes_coherence(*problem, result.material, evidence.noise);
+  const double p = noise_makes_coherence(*problem, result.material, evidence.l, evidence.noise);
   if (p >= lobe_level) return without_coherence(scan, settings, p);
   result.search_evaluations = solved.evaluations;
   result.polish_starts = solved.starts;

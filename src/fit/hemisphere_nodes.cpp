@@ -36,7 +36,7 @@ std::vector<Node> radii(double most, double edge) {
     add_panel<24>(0.0, log_of(edge), nodes);
     add_panel<24>(log_of(edge), log_of(most), nodes);
   } else {
-    add_panel<40>(0.0, log_of(most), nodes);
+    add_panel<48>(0.0, log_of(most), nodes);
   }
   for (Node& node : nodes) {
     node.weight *= finest * std::exp(node.x);
@@ -50,7 +50,7 @@ std::vector<Node> radii(double most, double edge) {
 std::vector<Node> azimuths() {
   std::vector<Node> nodes;
   constexpr std::array edges{0.0, 0.3, 0.45, 0.5, 0.55, 0.7, 1.0};
-  for (std::size_t i = 0; i + 1 < edges.size(); ++i) add_panel<6>(edges[i] * pi, edges[i + 1] * pi, nodes);
+  for (std::size_t i = 0; i + 1 < edges.size(); ++i) add_panel<8>(edges[i] * pi, edges[i + 1] * pi, nodes);
   return nodes;
 }
 

@@ -6,7 +6,7 @@
 // does not tell: under noise alone the search picks the shape that makes it large. What tells is what leaving all lobes
 // out costs in chi-square, readings divided by the standard deviation of their noise, the other coefficients solved
 // again: with C channels chi-square of C degrees of freedom under noise alone (or of one, for the channel that loses
-// most, C times). The level is that of four standard deviations, 6.3e-5: the search tries some fifty slopes, of which
+// most, C times), and what halves the loss itself is no noise either. The level is that of four standard deviations, 6.3e-5: the search tries some fifty slopes, of which
 // about twenty are independent, so noise passes once in a thousand scans, and five standard deviations in one channel
 // of a hundred do.
 
@@ -36,8 +36,9 @@ struct LobeTest {
                                   const ReadingNoise& noise);
 
 /// Probability that noise alone makes as much of coh as the material has, sigma being free; 0 where there is nothing to
-/// test.
-[[nodiscard]] double noise_makes_coherence(const Problem& problem, const Material& material, const ReadingNoise& noise);
+/// test, or without coh the loss would be twice what it is.
+[[nodiscard]] double noise_makes_coherence(const Problem& problem, const Material& material, const Linearisation& l,
+                                           const ReadingNoise& noise);
 
 /// Bounds of a problem narrowed to 0 for some coefficients, until the end of its life.
 class HeldAtZero {

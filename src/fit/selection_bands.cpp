@@ -11,8 +11,11 @@ namespace goniofit {
 
 namespace {
 
-std::vector<double> picked(const std::vector<double>& values, const std::vector<std::size_t>& channels) {
-  if (values.size() <= 1) return values;
+// As many values as there are channels, or not one a channel: that one value may be meant, or that it is an error, the
+// problem finds.
+std::vector<double> picked(const std::vector<double>& values, std::size_t all,
+                           const std::vector<std::size_t>& channels) {
+  if (values.size() != all) return values;
   std::vector<double> some;
   for (const std::size_t c : channels) some.push_back(values[c]);
   return some;
@@ -51,9 +54,9 @@ Scan with_channels(const Scan& scan, const std::vector<std::size_t>& channels) {
 
 FitSettings with_channels(const FitSettings& settings, const Scan& scan, const std::vector<std::size_t>& channels) {
   FitSettings some = settings;
-  some.n = picked(settings.n, channels);
-  some.kappa = picked(settings.kappa, channels);
-  some.f0 = picked(settings.f0, channels);
+  some.n = picked(settings.n, scan.channels.size(), channels);
+  some.kappa = picked(settings.kappa, scan.channels.size(), channels);
+  some.f0 = picked(settings.f0, scan.channels.size(), channels);
   for (std::size_t c = 0; c < scan.channels.size(); ++c) {
     if (std::find(channels.begin(), channels.end(), c) != channels.end()) continue;
     std::erase_if(some.parameters,

@@ -177,7 +177,7 @@ TEST_F(BadInput, FlagsThatContradictTheScan) {
        "parameter slope: no such parameter, expected one of alpha, k_d, k_s"},
       {{"--fix", "tail=0.5", "--distribution", "student-t"}, "parameter tail: value 0.5 is out of range"},
       {{"--loss", "fast"}, "--loss: \"fast\", expected cosine-l2"},
-      {{"--weight", "fast"}, "--weight: \"fast\", expected cosine or none"},
+      {{"--weight", "fast"}, "--weight: \"fast\", expected cosine, none, cosine-solid-angle or solid-angle"},
       {{"--free", "fast"}, "--free: \"fast\", expected n, f0 or none"},
       {{"--fix", "k_fs"}, "--fix: \"k_fs\", expected NAME=VALUE"},
       {{"--fix", "k_fs="}, "--fix: \"k_fs=\""},

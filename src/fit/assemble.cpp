@@ -5,6 +5,7 @@
 #include <map>
 
 #include "brdf/rough_shape.h"
+#include "fit/correlation.h"
 #include "fit/model.h"
 #include "fit/shape_rows.h"
 #include "fit/uncertainty.h"
@@ -93,6 +94,11 @@ void Assembly::add_totals() {
   for (const Eigen::VectorXd& r : l_.residuals)
     out_.channel_rms.push_back(std::sqrt(r.cwiseQuotient(problem_.weight).squaredNorm() / n));
   out_.converged = best_.converged;
+  out_.uncertainty_from = u_.source;
+  out_.scale_u = problem_.scale_u;
+  if (std::isfinite(u_.reduced_chi_square)) out_.reduced_chi_square = u_.reduced_chi_square;
+  out_.correlation = correlation_of(problem_, u_);
+  summary_.uncertainty_from = name_of(u_.source);
   summary_.loss = out_.loss;
   summary_.rms = out_.rms;
   summary_.samples = out_.samples;
@@ -103,6 +109,7 @@ void Assembly::record(const FittedParameter& p, bool identifiable) {
   out_.parameters.push_back(p);
   const std::string key = p.channel.empty() ? p.name : p.channel + "." + p.name;
   summary_.identifiable[key] = identifiable;
+  if (p.interval_95) summary_.interval_95[key] = *p.interval_95;
   if (!p.u) return;
   if (p.channel.empty()) {
     summary_.shared_uncertainty[p.name] = *p.u;
@@ -170,8 +177,9 @@ void Assembly::add_coefficient(std::size_t c, std::size_t coefficient) {
   const bool width_unknown = problem_.model == surface_model && !out_.material.surface.slope;
   if (width_unknown && name != name_of(Coefficient::rho) && is_lobe(coefficient) && p.value != 0.0) {
     p.value.reset();
-    p.u.reset();
   }
+  // How strong a lobe of unknown width may be is not known either.
+  if (width_unknown && is_lobe(coefficient)) leave_without_uncertainty(p);
   // An uncertainty beyond both the value and 1 says nothing of a coefficient whose scale is 1. Where all that it adds
   // to the scan is less than the residual of one reading, it is not determined; else it is so only apart from its
   // companions.
@@ -179,7 +187,7 @@ void Assembly::add_coefficient(std::size_t c, std::size_t coefficient) {
   const double noise2 = out_.loss / static_cast<double>(out_.samples * problem_.channels.size());
   if (says_nothing && *p.value * *p.value * l_.by_coefficient[c].col(j).squaredNorm() < noise2) {
     p.value.reset();
-    p.u.reset();
+    leave_without_uncertainty(p);
   } else if (says_nothing) {
     out_.warnings.push_back(p.name + " of " + p.channel +
                             " is not determined apart from the others: its uncertainty exceeds its value; fix it or "

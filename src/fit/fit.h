@@ -1,6 +1,7 @@
 #pragma once
 // The main job: a scan and settings in, a material and what is to be said of it out.
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -22,6 +23,9 @@ struct FittedParameter {
   std::optional<double> value;          ///< null: the scan does not determine it
   std::optional<double> u;              ///< standard uncertainty; null where fixed, on a bound or undetermined
   std::optional<double> u_classical{};  ///< the same if all residuals had one variance, s² (JᵀJ)⁻¹: see uncertainty.h
+  /// From the readings' own uncertainties as they are, and times the root of the reduced chi-square; with the scale's.
+  std::optional<double> u_unscaled{}, u_chi2_scaled{};
+  std::optional<double> u_scale{};  ///< the part of u that is the instrument's scale; null where none is stated
   /// What the truth lies in with that probability. On a bound one-sided: from the bound to the limit.
   std::optional<Interval> interval_68{}, interval_95{};
   std::optional<double> coverage_factor{};  ///< k of U = k u, of 95 %
@@ -29,6 +33,12 @@ struct FittedParameter {
   bool fixed = false;
   bool derived = false;  ///< computed from others (tau from slope and sigma)
   bool at_lower = false, at_upper = false;
+};
+
+/// Of the estimates of the free parameters, by the covariance that is stated; empty where none is.
+struct Correlation {
+  std::vector<std::string> names;  ///< "slope", "R.k_dd", in the order of the report
+  Eigen::MatrixXd matrix;
 };
 
 /// Directional-hemispherical reflectance of the fitted material.
@@ -53,6 +63,10 @@ struct FitResult {
   double seconds = 0.0;
   bool converged = false;
   bool components_were_auto = false;
+  UncertaintySource uncertainty_from = UncertaintySource::residuals;
+  double scale_u = 0.0;                      ///< relative, of the instrument's scale
+  std::optional<double> reduced_chi_square;  ///< of the readings by their own uncertainties
+  Correlation correlation;
   std::optional<Selection> selection;         ///< how "auto" chose; also the first of the notes
   std::optional<FitDiagnostics> diagnostics;  ///< whether the material describes the scan; none where it has no values
                                               ///< (a parameter of a peer is open)

@@ -101,6 +101,9 @@ class Problem {
   std::size_t optics_groups = 0;
   double total = 0.0;  ///< loss of a model that is zero
 
+  UncertaintySource uncertainty = UncertaintySource::residuals;  ///< as asked for, or as the readings allow
+  double scale_u = 0.0;  ///< relative standard uncertainty of the instrument's scale
+
   Exclusions exclusions;
   std::vector<std::string> notes, warnings;
 
@@ -117,6 +120,7 @@ class Problem {
   void fix(std::size_t parameter, double value);
   void choose_coefficients(const FitSettings& settings);
   void fill_targets(const Scan& scan);
+  void choose_uncertainty(const Scan& scan, const FitSettings& settings);
   void add_target(ProblemChannel& channel, Eigen::VectorXd values);
 };
 

@@ -22,6 +22,7 @@ struct FitFlags {
   std::optional<std::string> fs_form, rough_form, anisotropy;
   bool anisotropic = false;
   std::optional<std::string> loss, weight;
+  std::optional<std::string> uncertainty, scale_u;
   std::optional<std::string> max_theta, solid_angle;
 };
 

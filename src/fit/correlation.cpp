@@ -22,9 +22,11 @@ Correlation correlation_of(const Problem& problem, const Uncertainties& u) {
     for (std::size_t j = 0; j < u.coefficients[c].size(); ++j)
       add(prefix + problem.basis->coefficients()[j].name, u.coefficients[c][j]);
   }
-  const Eigen::MatrixXd covariance = u.covariance(index, index);
-  const Eigen::VectorXd scale = covariance.diagonal().cwiseSqrt().cwiseInverse();
-  out.matrix = scale.asDiagonal() * covariance * scale.asDiagonal();
+  for (const Eigen::Index a : index) {
+    std::vector<double>& row = out.matrix.emplace_back();
+    for (const Eigen::Index b : index)
+      row.push_back(u.covariance(a, b) / std::sqrt(u.covariance(a, a) * u.covariance(b, b)));
+  }
   return out;
 }
 
@@ -32,7 +34,7 @@ std::vector<CorrelatedPair> strong_pairs(const Correlation& correlation, double 
   std::vector<CorrelatedPair> pairs;
   for (std::size_t a = 0; a < correlation.names.size(); ++a) {
     for (std::size_t b = 0; b < a; ++b) {
-      const double rho = correlation.matrix(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b));
+      const double rho = correlation.matrix[a][b];
       if (std::fabs(rho) > least) pairs.push_back({b, a, rho});
     }
   }

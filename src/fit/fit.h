@@ -1,7 +1,6 @@
 #pragma once
 // The main job: a scan and settings in, a material and what is to be said of it out.
 
-#include <Eigen/Core>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -38,7 +37,7 @@ struct FittedParameter {
 /// Of the estimates of the free parameters, by the covariance that is stated; empty where none is.
 struct Correlation {
   std::vector<std::string> names;  ///< "slope", "R.k_dd", in the order of the report
-  Eigen::MatrixXd matrix;
+  std::vector<std::vector<double>> matrix;
 };
 
 /// Directional-hemispherical reflectance of the fitted material.

@@ -33,6 +33,10 @@ enum class UncertaintySource : std::uint8_t { readings, residuals, angles };
 /// "readings", "residuals", "incidence angles".
 [[nodiscard]] std::string_view name_of(UncertaintySource source) noexcept;
 
+/// Sets what "auto", "readings", "residuals" or "angles" asks for; false for another word.
+[[nodiscard]] bool parse_uncertainty(std::string_view word, std::optional<UncertaintySource>& to) noexcept;
+inline constexpr std::string_view uncertainty_words = "auto, readings, residuals or angles";
+
 /// Readings that a fit leaves out, each rule counted in its report; theta beyond FitSettings::max_theta_deg as well.
 struct ExclusionSettings {
   double retro_cone_deg = 0.0;             ///< readings as near to the retro direction as this

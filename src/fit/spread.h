@@ -8,9 +8,9 @@
 // readings   var ε from the readings' own standard uncertainties (GUM, JCGM 100). Intervals are the normal
 //            distribution's.
 // residuals  HC3 (MacKinnon & White 1985): r_i² / (1 - h_i)² for var ε_i, h_i the leverage. V is then itself a random
-//            sum, which a few bright readings may rule. Intervals are Student's t of the degrees of freedom that match
-//            its mean and variance (Satterthwaite 1946; Bell & McCaffrey 2002) where the noise is relative and additive
-//            in the measure that the residuals show; they correct HC3's bias there too.
+//            sum, which a few bright readings may rule, and which they bias: intervals are those of the estimates over
+//            it where the noise is relative and additive in the measure that the residuals show (studentised.h; the
+//            idea is Bell & McCaffrey's, 2002).
 // angles     Readings at one incidence angle share errors: clusters g, with scores s_g = Bᵀ J_gᵀ r_g and
 //            G_g = Bᵀ J_gᵀ J_g B. CR3, the jackknife that leaves out whole clusters (Bell & McCaffrey 2002):
 //            V = (n - 1)/n B [Σ_g t_g t_gᵀ] Bᵀ, t_g = (1 - G_g)⁻¹ s_g. Of five to eight clusters it is much too unsure
@@ -31,7 +31,6 @@ namespace goniofit {
 struct CoverageFactors {
   double at_68 = 1.0, at_95 = 1.959963984540054;
 };
-[[nodiscard]] CoverageFactors coverage_factors(double freedom);
 
 struct Spread {
   Eigen::MatrixXd covariance;

@@ -221,6 +221,21 @@ std::string_view name_of(UncertaintySource source) noexcept {
   return "residuals";
 }
 
+bool parse_uncertainty(std::string_view word, std::optional<UncertaintySource>& to) noexcept {
+  if (word == "auto") {
+    to.reset();
+  } else if (word == "readings") {
+    to = UncertaintySource::readings;
+  } else if (word == "residuals") {
+    to = UncertaintySource::residuals;
+  } else if (word == "angles") {
+    to = UncertaintySource::angles;
+  } else {
+    return false;
+  }
+  return true;
+}
+
 void set_by_readings(ParameterUncertainty& p, double u, double reduced_chi_square) {
   p.u_readings = std::hypot(u, p.u_scale);
   p.u_readings_scaled = std::hypot(u * std::sqrt(reduced_chi_square), p.u_scale);

@@ -20,7 +20,7 @@ Spread spread_by_readings(const JointJacobian& j, const std::vector<Eigen::Vecto
 }
 
 Spread spread_by_residuals(const JointJacobian& j, const std::vector<Eigen::VectorXd>& residuals,
-                           const std::vector<Eigen::VectorXd>& variance) {
+                           const std::vector<Eigen::VectorXd>& variance, const std::vector<Eigen::Index>& parameters) {
   Spread out;
   out.single.assign(static_cast<std::size_t>(j.size()), false);
   std::vector<Eigen::VectorXd> e;
@@ -40,10 +40,11 @@ Spread spread_by_residuals(const JointJacobian& j, const std::vector<Eigen::Vect
     }
   }
   out.covariance = j.root() * j.meat(e) * j.root().transpose();
-  const Studentised studentised(j, leverages, variance);
-  for (Eigen::Index p = 0; p < j.size(); ++p) {
-    const Studentised::Factors k = studentised.factors(p);
-    out.k.push_back({k.at_68, k.at_95});
+  const Studentised studentised(j, leverages, variance, parameters);
+  out.k.resize(static_cast<std::size_t>(j.size()));
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const Studentised::Factors k = studentised.factors(i);
+    out.k[static_cast<std::size_t>(parameters[i])] = {k.at_68, k.at_95};
   }
   return out;
 }

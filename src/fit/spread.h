@@ -39,10 +39,12 @@ struct Spread {
   std::vector<bool> single;
 };
 
-/// `sd`: of the residuals, one vector a channel; so are `residuals` and `variance`, an estimate of their noise.
+/// `sd`: of the residuals, one vector a channel; so are `residuals` and `variance`, an estimate of their noise. k only
+/// of the parameters asked for.
 [[nodiscard]] Spread spread_by_readings(const JointJacobian& j, const std::vector<Eigen::VectorXd>& sd);
 [[nodiscard]] Spread spread_by_residuals(const JointJacobian& j, const std::vector<Eigen::VectorXd>& residuals,
-                                         const std::vector<Eigen::VectorXd>& variance);
+                                         const std::vector<Eigen::VectorXd>& variance,
+                                         const std::vector<Eigen::Index>& parameters);
 /// At least two groups.
 [[nodiscard]] Spread spread_by_angles(const JointJacobian& j, const std::vector<Eigen::VectorXd>& residuals,
                                       const AngleGroups& groups);

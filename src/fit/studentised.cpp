@@ -18,7 +18,7 @@ constexpr double full_leverage = 1.0 - 1e-9;
 // From so many effective readings on Student's t will do.
 constexpr double many = 200.0;
 constexpr double of_account = 3e-3;
-constexpr std::size_t most_readings = 20;
+constexpr std::size_t most_readings = 16;
 
 double normal_tail(double x) { return 0.5 * std::erfc(x * 0.7071067811865476); }
 
@@ -104,14 +104,20 @@ double SignedForm::factor(double probability) const {
   return std::exp(0.25 * (a + b));
 }
 
+// K by JᵀΩJ, not by triangles as the covariances: of a probability three digits are enough.
 Studentised::Studentised(const JointJacobian& j, const std::vector<Eigen::VectorXd>& leverage,
-                         const std::vector<Eigen::VectorXd>& variance)
-    : j_(j), variance_(variance) {
-  std::vector<Eigen::VectorXd> sd;
-  for (const Eigen::VectorXd& v : variance) sd.emplace_back(v.cwiseSqrt());
-  meat_ = j.meat(sd);
-  truth_ = (j.root() * meat_).cwiseProduct(j.root()).rowwise().sum();
-  mean_ = squares_ = Eigen::VectorXd::Zero(j.size());
+                         const std::vector<Eigen::VectorXd>& variance, const std::vector<Eigen::Index>& parameters)
+    : j_(j), variance_(variance), parameters_(parameters) {
+  meat_ = Eigen::MatrixXd::Zero(j.size(), j.size());
+  for (std::size_t c = 0; c < variance.size(); ++c) {
+    const Eigen::MatrixXd& jacobian = j.blocks()[c].jacobian;
+    const Eigen::MatrixXd own = j.own_root(c);
+    const Eigen::MatrixXd weighted = variance[c].asDiagonal() * jacobian;
+    meat_.noalias() += own.transpose() * (jacobian.transpose() * weighted) * own;
+  }
+  const Eigen::MatrixXd rows = j.root()(parameters, Eigen::all);
+  truth_ = (rows * meat_).cwiseProduct(rows).rowwise().sum();
+  mean_ = squares_ = Eigen::VectorXd::Zero(rows.rows());
   for (std::size_t c = 0; c < variance.size(); ++c) add(c, leverage[c]);
 }
 
@@ -123,18 +129,22 @@ void Studentised::add(std::size_t c, const Eigen::VectorXd& leverage) {
   const Eigen::ArrayXd& s = s_.emplace_back(variance_[c].array() * (1.0 - 2.0 * leverage.array()) + in_fit);
   const Eigen::ArrayXd factor =
       (leverage.array() < full_leverage).select((1.0 - leverage.array()).inverse().square() * s, 0.0);
-  Eigen::ArrayXXd& parts = parts_.emplace_back(block.jacobian * (own * j_.root().transpose()));
-  parts = parts.square().colwise() * factor;
-  mean_ += parts.colwise().sum().matrix().transpose();
-  squares_ += parts.square().colwise().sum().matrix().transpose();
+  Eigen::ArrayXXd& parts = parts_.emplace_back(leverage.size(), mean_.size());
+  Eigen::VectorXd a(leverage.size());
+  for (Eigen::Index k = 0; k < mean_.size(); ++k) {
+    a.noalias() = block.jacobian * (own * j_.root().row(parameters_[static_cast<std::size_t>(k)]).transpose());
+    parts.col(k) = a.array().square() * factor;
+    mean_[k] += parts.col(k).sum();
+    squares_[k] += parts.col(k).matrix().squaredNorm();
+  }
 }
 
-std::vector<Studentised::Reading> Studentised::of_most_account(Eigen::Index parameter) const {
+std::vector<Studentised::Reading> Studentised::of_most_account(Eigen::Index column) const {
   std::vector<Reading> out;
   for (std::size_t c = 0; c < parts_.size(); ++c) {
-    const double* const part = parts_[c].col(parameter).data();
+    const double* const part = parts_[c].col(column).data();
     for (Eigen::Index i = 0; i < parts_[c].rows(); ++i) {
-      if (part[i] > of_account * mean_[parameter]) out.push_back({c, i, part[i]});
+      if (part[i] > of_account * mean_[column]) out.push_back({c, i, part[i]});
     }
   }
   std::stable_sort(out.begin(), out.end(), [](const Reading& a, const Reading& b) { return a.part > b.part; });
@@ -143,7 +153,7 @@ std::vector<Studentised::Reading> Studentised::of_most_account(Eigen::Index para
 }
 
 // G of η: z = η_0 and r = L η, L the root of their joint covariance.
-Eigen::MatrixXd Studentised::form(Eigen::Index parameter, const std::vector<Reading>& readings) const {
+Eigen::MatrixXd Studentised::form(Eigen::Index column, const std::vector<Reading>& readings) const {
   const auto m = static_cast<Eigen::Index>(readings.size());
   Eigen::MatrixXd u(m, j_.size());
   Eigen::VectorXd omega(m);
@@ -154,8 +164,8 @@ Eigen::MatrixXd Studentised::form(Eigen::Index parameter, const std::vector<Read
     omega[i] = variance_[r.channel][r.row];
     x[i] = r.part / s_[r.channel][r.row];
   }
-  const Eigen::VectorXd own = j_.root().row(parameter).transpose();
-  const double v = truth_[parameter];
+  const Eigen::VectorXd own = j_.root().row(parameters_[static_cast<std::size_t>(column)]).transpose();
+  const double v = truth_[column];
   Eigen::MatrixXd joint(m + 1, m + 1);
   joint(0, 0) = 1.0;
   joint.bottomLeftCorner(m, 1) = (omega.asDiagonal() * (u * own) - u * (meat_ * own)) / std::sqrt(v);
@@ -169,25 +179,26 @@ Eigen::MatrixXd Studentised::form(Eigen::Index parameter, const std::vector<Read
   return root.bottomRows(m).transpose() * (x / v).asDiagonal() * root.bottomRows(m);
 }
 
-Studentised::Factors Studentised::factors(Eigen::Index parameter) const {
-  const double v = truth_[parameter];
-  const double mean = mean_[parameter];
-  const double freedom = mean * mean / squares_[parameter];
+Studentised::Factors Studentised::factors(std::size_t position) const {
+  const auto column = static_cast<Eigen::Index>(position);
+  const double v = truth_[column];
+  const double mean = mean_[column];
+  const double freedom = mean * mean / squares_[column];
   const bool simple = !(freedom < many) || !(v > 0.0);
   if (simple) {
     const double bias = v > 0.0 && mean > 0.0 ? std::sqrt(v / mean) : 1.0;
     return {bias * coverage_factor(probability_68, freedom), bias * coverage_factor(probability_95, freedom)};
   }
-  const std::vector<Reading> readings = of_most_account(parameter);
+  const std::vector<Reading> readings = of_most_account(column);
   double rest = mean;
-  double rest_squares = squares_[parameter];
+  double rest_squares = squares_[column];
   for (const Reading& r : readings) {
     rest -= r.part;
     rest_squares -= r.part * r.part;
   }
   rest = std::max(rest, 1e-9 * mean);
   const double rest_freedom = std::clamp(rest * rest / std::max(rest_squares, 1e-300), 1.0, 1e6);
-  const SignedForm signed_form(form(parameter, readings), rest / v, rest_freedom);
+  const SignedForm signed_form(form(column, readings), rest / v, rest_freedom);
   return {signed_form.factor(probability_68), signed_form.factor(probability_95)};
 }
 

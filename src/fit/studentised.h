@@ -48,14 +48,15 @@ class SignedForm {
 
 class Studentised {
  public:
-  /// Leverages, and variances of the noise of the residuals, one vector a channel.
+  /// Leverages, and variances of the noise of the residuals, one vector a channel; of the parameters asked for.
   Studentised(const JointJacobian& j, const std::vector<Eigen::VectorXd>& leverage,
-              const std::vector<Eigen::VectorXd>& variance);
+              const std::vector<Eigen::VectorXd>& variance, const std::vector<Eigen::Index>& parameters);
   /// k at which value ± k u has the probability.
   struct Factors {
     double at_68, at_95;
   };
-  [[nodiscard]] Factors factors(Eigen::Index parameter) const;
+  /// Of the parameter at that position among them.
+  [[nodiscard]] Factors factors(std::size_t position) const;
 
  private:
   struct Reading {
@@ -64,15 +65,16 @@ class Studentised {
     double part;  ///< of the mean of V̂
   };
   void add(std::size_t channel, const Eigen::VectorXd& leverage);
-  [[nodiscard]] std::vector<Reading> of_most_account(Eigen::Index parameter) const;
-  [[nodiscard]] Eigen::MatrixXd form(Eigen::Index parameter, const std::vector<Reading>& readings) const;
+  [[nodiscard]] std::vector<Reading> of_most_account(Eigen::Index column) const;
+  [[nodiscard]] Eigen::MatrixXd form(Eigen::Index column, const std::vector<Reading>& readings) const;
 
   const JointJacobian& j_;
   const std::vector<Eigen::VectorXd>& variance_;
+  const std::vector<Eigen::Index>& parameters_;
   Eigen::MatrixXd meat_;                    ///< K
   Eigen::VectorXd truth_, mean_, squares_;  ///< V; Σ x_i S_ii; Σ (x_i S_ii)²
   std::vector<Eigen::ArrayXd> s_;           ///< [channel]: S_ii
-  std::vector<Eigen::ArrayXXd> parts_;      ///< [channel], readings x parameters: x_i S_ii
+  std::vector<Eigen::ArrayXXd> parts_;      ///< [channel], readings x parameters asked for: x_i S_ii
 };
 
 }  // namespace goniofit

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "fit/cross_validation.h"
@@ -93,7 +94,9 @@ std::vector<Eigen::VectorXd> sd_of_readings(const Problem& problem) {
   return by_channel(problem, [&](std::size_t c) { return reading_sd(problem, c); });
 }
 
-Spread spread_of(const Problem& problem, const JointJacobian& j, const std::vector<Eigen::VectorXd>& residuals) {
+// Of the parameters asked for.
+Spread spread_of(const Problem& problem, const JointJacobian& j, const std::vector<Eigen::VectorXd>& residuals,
+                 const std::vector<Eigen::Index>& parameters) {
   switch (problem.uncertainty) {
     case UncertaintySource::readings:
       return spread_by_readings(j, sd_of_readings(problem));
@@ -103,7 +106,8 @@ Spread spread_of(const Problem& problem, const JointJacobian& j, const std::vect
       break;
   }
   return spread_by_residuals(
-      j, residuals, by_channel(problem, [&](std::size_t c) { return estimated_variance(problem, c, residuals[c]); }));
+      j, residuals, by_channel(problem, [&](std::size_t c) { return estimated_variance(problem, c, residuals[c]); }),
+      parameters);
 }
 
 Eigen::VectorXd change_by_scale(const Problem& problem, const JointJacobian& j) {
@@ -160,9 +164,11 @@ void add_stated(const Problem& problem, const Linearisation& l, const JointJacob
                 Uncertainties& out) {
   const bool by_readings = problem.uncertainty == UncertaintySource::readings;
   const auto size = static_cast<std::size_t>(places.size);
+  std::vector<Eigen::Index> all(size);
+  std::iota(all.begin(), all.end(), Eigen::Index{0});
   const Spread spread =
       by_readings ? Spread{out.covariance_readings, std::vector<CoverageFactors>(size), std::vector<bool>(size, false)}
-                  : spread_of(problem, j, l.residuals);
+                  : spread_of(problem, j, l.residuals, all);
   out.by_scale = change_by_scale(problem, j);
   out.covariance = spread.covariance + problem.scale_u * problem.scale_u * out.by_scale * out.by_scale.transpose();
   for_each_place(out, places, [&](ParameterUncertainty& p, Eigen::Index i) {
@@ -184,7 +190,11 @@ void release(const Problem& problem, const Linearisation& l, const ParameterPlac
   const Eigen::VectorXd step = -j.solve(l.residuals);
   std::vector<Eigen::VectorXd> residuals = l.residuals;
   for (std::size_t c = 0; c < residuals.size(); ++c) residuals[c] += j.blocks()[c].jacobian * step(j.blocks()[c].index);
-  const Spread spread = spread_of(problem, j, residuals);
+  std::vector<Eigen::Index> held;
+  for_each_place(out, places, [&held](const ParameterUncertainty& p, Eigen::Index i) {
+    if (is_on_bound(p)) held.push_back(i);
+  });
+  const Spread spread = spread_of(problem, j, residuals, held);
   const Eigen::VectorXd by_scale = change_by_scale(problem, j);
   for_each_place(out, places, [&](ParameterUncertainty& p, Eigen::Index i) {
     if (!is_on_bound(p) || spread.single[static_cast<std::size_t>(i)]) return;

@@ -108,7 +108,8 @@ Spread spread_by_angles(const JointJacobian& j, const std::vector<Eigen::VectorX
   for (Eigen::Index p = 0; p < j.size(); ++p) {
     std::vector<double> values;
     for (Eigen::Index i = 0; i < t.cols(); ++i) values.push_back(std::isfinite(t(p, i)) ? t(p, i) : 0.0);
-    out.k.push_back({quantile(values, probability_68), quantile(values, probability_95)});
+    out.k.push_back({std::max(quantile(values, probability_68), coverage_factor(probability_68, n - 1.0)),
+                     std::max(quantile(values, probability_95), coverage_factor(probability_95, n - 1.0))});
   }
   return out;
 }

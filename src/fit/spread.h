@@ -15,8 +15,8 @@
 //            G_g = Bᵀ J_gᵀ J_g B. CR3, the jackknife that leaves out whole clusters (Bell & McCaffrey 2002):
 //            V = (n - 1)/n B [Σ_g t_g t_gᵀ] Bᵀ, t_g = (1 - G_g)⁻¹ s_g. Of five to eight clusters it is much too unsure
 //            for any table: intervals are those of a wild cluster bootstrap of its studentised deviations with Webb's
-//            six weights (Webb 2014; MacKinnon, Nielsen & Webb 2023), every refit one step of the linearised problem.
-//            The same problem gives the same intervals.
+//            six weights (Webb 2014; MacKinnon, Nielsen & Webb 2023), every refit one step of the linearised problem,
+//            and no narrower than Student's t of n - 1. The same problem gives the same intervals.
 
 #include <Eigen/Core>
 #include <vector>

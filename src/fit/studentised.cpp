@@ -1,6 +1,5 @@
 #include "fit/studentised.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <boost/math/tools/toms748_solve.hpp>
@@ -75,21 +74,24 @@ double SignedForm::saddlepoint(double kappa) const {
     const double newton = at.inside ? s - at.first / at.second : outer;
     const bool between = (newton - inner) * (newton - outer) < 0.0;
     const double next = between ? newton : 0.5 * (inner + outer);
-    if (std::fabs(next - s) <= 1e-9 * std::fabs(s)) break;
+    if (at.inside && std::fabs(next - s) <= 1e-9 * std::fabs(s)) break;
     s = next;
   }
-  return s;
+  return cumulants(s, kappa).inside ? s : inner;
 }
 
 double SignedForm::positive(double kappa) const {
-  const double s = saddlepoint(kappa);
-  if (std::isinf(s)) return s > 0.0 ? 0.0 : 1.0;
-  const Cumulants at = cumulants(s, kappa);
-  const double w = std::copysign(std::sqrt(std::max(-2.0 * at.value, 0.0)), s);
   // Where the mean is 0 the formula is 0/0; a step aside it is good to as many digits as are wanted.
-  if (std::fabs(w) < 1e-4) return positive(kappa * 1.001);
-  const double v = s * std::sqrt(at.second);
-  return normal_tail(w + std::log(v / w) / w);
+  for (int aside = 0; aside < 3; ++aside, kappa *= 1.001) {
+    const double s = saddlepoint(kappa);
+    if (std::isinf(s)) return s > 0.0 ? 0.0 : 1.0;
+    const Cumulants at = cumulants(s, kappa);
+    const double w = std::copysign(std::sqrt(std::max(-2.0 * at.value, 0.0)), s);
+    if (std::fabs(w) < 1e-4) continue;
+    const double v = s * std::sqrt(at.second);
+    return normal_tail(w + std::log(v / w) / w);
+  }
+  return 0.5;
 }
 
 double SignedForm::factor(double probability) const {
@@ -152,7 +154,7 @@ std::vector<Studentised::Reading> Studentised::of_most_account(Eigen::Index colu
   return out;
 }
 
-// G of η: z = η_0 and r = L η, L the root of their joint covariance.
+// G of η: z = η_0, and r = Cov(r, z) η_0 plus what is not in z, by a root of its covariance.
 Eigen::MatrixXd Studentised::form(Eigen::Index column, const std::vector<Reading>& readings) const {
   const auto m = static_cast<Eigen::Index>(readings.size());
   Eigen::MatrixXd u(m, j_.size());
@@ -166,17 +168,17 @@ Eigen::MatrixXd Studentised::form(Eigen::Index column, const std::vector<Reading
   }
   const Eigen::VectorXd own = j_.root().row(parameters_[static_cast<std::size_t>(column)]).transpose();
   const double v = truth_[column];
-  Eigen::MatrixXd joint(m + 1, m + 1);
-  joint(0, 0) = 1.0;
-  joint.bottomLeftCorner(m, 1) = (omega.asDiagonal() * (u * own) - u * (meat_ * own)) / std::sqrt(v);
+  const Eigen::VectorXd with_z = (omega.asDiagonal() * (u * own) - u * (meat_ * own)) / std::sqrt(v);
   const Eigen::MatrixXd h = u * u.transpose();
-  joint.bottomRightCorner(m, m) = u * meat_ * u.transpose() - omega.asDiagonal() * h - h * omega.asDiagonal();
-  joint.bottomRightCorner(m, m).diagonal() += omega;
-  joint.topRightCorner(1, m) = joint.bottomLeftCorner(m, 1).transpose();
-  // Residuals may be linearly dependent; a little noise of their own keeps the root real.
-  joint.bottomRightCorner(m, m).diagonal() *= 1.0 + 1e-10;
-  const Eigen::MatrixXd root = joint.llt().matrixL();
-  return root.bottomRows(m).transpose() * (x / v).asDiagonal() * root.bottomRows(m);
+  Eigen::MatrixXd apart = u * meat_ * u.transpose() - omega.asDiagonal() * h - h * omega.asDiagonal();
+  apart.diagonal() += omega;
+  apart -= with_z * with_z.transpose();
+  // Residuals may depend on each other linearly: no Cholesky.
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(apart);
+  Eigen::MatrixXd root(m, m + 1);
+  root.col(0) = with_z;
+  root.rightCols(m) = eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
+  return root.transpose() * (x / v).asDiagonal() * root;
 }
 
 Studentised::Factors Studentised::factors(std::size_t position) const {

@@ -182,7 +182,12 @@ void add_stated(const Problem& problem, const Linearisation& l, const JointJacob
   });
 }
 
-// Everything on a bound, released. Where these cannot all be told from each other, each by itself.
+bool points_outward(const ParameterUncertainty& p) {
+  return p.state == ParameterState::at_lower ? p.released->step <= 0.0 : p.released->step >= 0.0;
+}
+
+// Everything on a bound, released. Where these cannot all be told from each other, or some would turn into the interval
+// once others have left theirs, each by itself.
 void release(const Problem& problem, const Linearisation& l, const ParameterPlaces& places, Uncertainties& out) {
   const JointJacobian j(l, places);
   const bool spare = residual_count(problem) > static_cast<std::size_t>(j.size());
@@ -212,7 +217,7 @@ void release_bounds(const Problem& problem, const Linearisation& l, Uncertaintie
   if (held.empty()) return;
   release(problem, l, all, out);
   for (const ParameterUncertainty* one : held) {
-    if (one->released) continue;
+    if (one->released && points_outward(*one)) continue;
     release(problem, l, places_of(out, [one](const auto& p) { return is_free(p) || &p == one; }), out);
   }
 }

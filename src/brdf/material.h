@@ -143,7 +143,8 @@ struct FitSummary {
   std::map<std::string, double> shared_uncertainty;                          ///< by parameter: "slope"
   std::map<std::string, std::map<std::string, double>> channel_uncertainty;  ///< by channel, then parameter
   std::map<std::string, bool> identifiable;                                  ///< by parameter: "slope", "R.k_fs"
-  std::map<std::string, Interval> interval_95;                               ///< by parameter, likewise
+  std::string uncertainty_from;  ///< "readings", "residuals" or "incidence angles"; empty where it is not said
+  std::map<std::string, Interval> interval_95;  ///< by parameter, likewise
   friend bool operator==(const FitSummary&, const FitSummary&) = default;
 };
 

@@ -180,6 +180,18 @@ void apply_loss(const FitFlags& flags, FitSettings& settings) {
   }
 }
 
+void apply_uncertainty(const FitFlags& flags, FitSettings& settings) {
+  if (flags.uncertainty && !parse_uncertainty(*flags.uncertainty, settings.uncertainty)) {
+    throw usage_error("--uncertainty: " + in_quotes(*flags.uncertainty) + ", expected " +
+                      std::string(uncertainty_words));
+  }
+  if (!flags.scale_u) return;
+  settings.scale_u = parse_number(*flags.scale_u, "--scale-u");
+  if (!(*settings.scale_u >= 0.0) || *settings.scale_u > 1.0) {
+    throw usage_error("--scale-u: " + in_quotes(*flags.scale_u) + ", expected a part of the readings from 0 to 1");
+  }
+}
+
 }  // namespace
 
 void add_model_flag(CLI::App& command, FitFlags& flags) {
@@ -244,6 +256,12 @@ void add_fit_flags(CLI::App& command, FitFlags& flags) {
       ->type_name("NAME=MIN:MAX")
       ->allow_extra_args(false)
       ->group("Parameters");
+  once("--uncertainty", flags.uncertainty, "where standard uncertainties come from: " + std::string(uncertainty_words))
+      ->type_name("SOURCE")
+      ->group("Uncertainty");
+  once("--scale-u", flags.scale_u, "relative standard uncertainty of the instrument's scale (0.01)")
+      ->type_name("U")
+      ->group("Uncertainty");
   once("--loss", flags.loss, names_of<Loss>() + " (default cosine-l2: the sum of cos(theta_i) |difference|²)")
       ->type_name("LOSS")
       ->group("Loss");
@@ -282,6 +300,7 @@ FitSettings settings_of(const FitFlags& flags, const Recipe& recipe, const Scan&
   apply_loss(flags, settings);
   apply_exclusions(flags, settings.exclusions);
   if (const auto file = reflectances_of(flags, recipe)) settings.reflectances = read_reflectances(*file);
+  apply_uncertainty(flags, settings);
   return settings;
 }
 

@@ -25,6 +25,7 @@ struct FitFlags {
   std::optional<std::string> exclude_retro, exclude_saturated;
   bool exclude_clamped = false;
   std::optional<std::filesystem::path> reflectances;
+  std::optional<std::string> uncertainty, scale_u;
   std::optional<std::string> max_theta, solid_angle;
 };
 

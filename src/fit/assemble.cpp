@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "brdf/rough_shape.h"
+#include "fit/correlation.h"
 #include "fit/fit_warnings.h"
 #include "fit/lobe_significance.h"
 #include "fit/scan_support.h"
@@ -108,6 +109,11 @@ void Assembly::add_totals() {
   }
   add_published_loss();
   out_.converged = best_.converged;
+  out_.uncertainty_from = u_.source;
+  out_.scale_u = problem_.scale_u;
+  if (std::isfinite(u_.reduced_chi_square)) out_.reduced_chi_square = u_.reduced_chi_square;
+  out_.correlation = correlation_of(problem_, u_);
+  summary_.uncertainty_from = name_of(u_.source);
   summary_.loss = out_.loss;
   summary_.rms = out_.rms;
   summary_.samples = out_.samples;
@@ -183,6 +189,7 @@ void Assembly::summarise() {
   for (FittedParameter& p : out_.parameters) {
     add_flags(p);
     summary_.identifiable[key_of(p)] = p.identifiable;
+    if (p.interval_95) summary_.interval_95[key_of(p)] = *p.interval_95;
     if (!p.u) continue;
     if (p.channel.empty()) {
       summary_.shared_uncertainty[p.name] = *p.u;
@@ -245,6 +252,7 @@ void Assembly::add_coefficient(std::size_t c, std::size_t coefficient) {
   const bool lobe = is_lobe(*problem_.basis, coefficient);
   const bool width_unknown = problem_.model == surface_model && !out_.material.surface.slope && lobe;
   if (width_unknown && p.value != 0.0) undetermine(p);
+  if (width_unknown) forget_uncertainty(p);  // how strong a lobe of unknown width may be is not known either
   // Light from below a metal: there is none, whatever else is left of the scan.
   const bool opaque = is_one_of(c, evidence_.opaque) && is_one_of(coefficient, subsurface_coefficients(problem_));
   if (opaque && !p.fixed) {
@@ -256,7 +264,7 @@ void Assembly::add_coefficient(std::size_t c, std::size_t coefficient) {
   // to the scan is less than the residual of one reading, it is not determined; else it is so only apart from its
   // companions.
   const bool says_nothing = p.value && p.u && *p.u > std::max(1.0, *p.value);
-  const double noise2 = out_.loss / static_cast<double>(out_.samples * problem_.channels.size());
+  const double noise2 = l_.loss / static_cast<double>(problem_.values_used());
   const bool unseen = says_nothing && *p.value * *p.value * l_.by_coefficient[c].col(j).squaredNorm() < noise2;
   if (unseen) undetermine(p);
   if (says_nothing) p.flags.push_back(ParameterFlag::degenerate);

@@ -8,7 +8,6 @@
 #include "fit/linear_step.h"
 #include "fit/model.h"
 #include "fit/polish.h"
-#include "geometry/angles.h"
 
 namespace goniofit {
 
@@ -19,7 +18,7 @@ constexpr double tail_freedom = 4.0;
 constexpr double score_scale = 5.161239056645861;  // 1 over the mean of ln(1 + z²/4) for a standard normal z
 
 // Tenths of a degree.
-long angle_key(double cos_i) { return std::lround(10.0 * degrees(std::acos(std::clamp(cos_i, -1.0, 1.0)))); }
+long angle_key(double theta_i_deg) { return std::lround(10.0 * theta_i_deg); }
 
 std::vector<Eigen::VectorXd> emphasis_of(const Problem& problem) {
   std::vector<Eigen::VectorXd> all;
@@ -31,7 +30,7 @@ std::vector<Eigen::VectorXd> emphasis_of(const Problem& problem) {
 
 AngleGroups angle_groups(const Problem& problem) {
   std::map<long, std::size_t> readings;
-  for (const double cos_i : problem.pairs.cos_i) ++readings[angle_key(cos_i)];
+  for (const double theta_i_deg : problem.theta_i_deg) ++readings[angle_key(theta_i_deg)];
   const std::size_t count = std::min(readings.size(), most_groups);
   const bool one_each = readings.size() <= most_groups;
   std::map<long, std::size_t> group;
@@ -44,8 +43,8 @@ AngleGroups angle_groups(const Problem& problem) {
   std::map<std::size_t, std::size_t> dense;  // a group that one crowded angle skipped has no number
   for (const auto& [angle, g] : group) dense.try_emplace(g, dense.size());
   groups.readings.assign(dense.size(), 0.0);
-  for (const double cos_i : problem.pairs.cos_i) {
-    groups.of.push_back(dense.at(group.at(angle_key(cos_i))));
+  for (const double theta_i_deg : problem.theta_i_deg) {
+    groups.of.push_back(dense.at(group.at(angle_key(theta_i_deg))));
     groups.readings[groups.of.back()] += 1.0;
   }
   return groups;

@@ -40,6 +40,9 @@ struct FittedParameter {
   std::optional<double> value;          ///< null: the scan does not determine it
   std::optional<double> u;              ///< standard uncertainty; null where fixed, on a bound or undetermined
   std::optional<double> u_classical{};  ///< the same if all residuals had one variance, s² (JᵀJ)⁻¹: see uncertainty.h
+  /// From the readings' own uncertainties as they are, and times the root of the reduced chi-square; with the scale's.
+  std::optional<double> u_unscaled{}, u_chi2_scaled{};
+  std::optional<double> u_scale{};  ///< the part of u that is the instrument's scale; null where none is stated
   /// What the truth lies in with that probability. On a bound one-sided: from the bound to the limit.
   std::optional<Interval> interval_68{}, interval_95{};
   std::optional<double> coverage_factor{};  ///< k of U = k u, of 95 %
@@ -59,6 +62,12 @@ struct Objective {
   RobustKernel robust = RobustKernel::none;
   double robust_scale = 0.0;  ///< where there is a kernel
   double value = 0.0;         ///< at the minimum
+};
+
+/// Of the estimates of the free parameters, by the covariance that is stated; empty where none is.
+struct Correlation {
+  std::vector<std::string> names;  ///< "slope", "R.k_dd", in the order of the report
+  std::vector<std::vector<double>> matrix;
 };
 
 /// Directional-hemispherical reflectance of the fitted material.
@@ -85,8 +94,12 @@ struct FitResult {
   bool components_were_auto = false;
   std::optional<Selection> selection;  ///< how "auto" chose; also the first of the notes
   Identifiability identifiability;
-  std::optional<MeasurementDesign> design;    ///< filled by add_measurement_design
-  std::vector<LikelihoodProfile> profiles;    ///< those that FitSettings::profile asks for
+  std::optional<MeasurementDesign> design;  ///< filled by add_measurement_design
+  std::vector<LikelihoodProfile> profiles;  ///< those that FitSettings::profile asks for
+  UncertaintySource uncertainty_from = UncertaintySource::residuals;
+  double scale_u = 0.0;                      ///< relative, of the instrument's scale
+  std::optional<double> reduced_chi_square;  ///< of the readings by their own uncertainties
+  Correlation correlation;
   std::optional<FitDiagnostics> diagnostics;  ///< whether the material describes the scan; none where it has no values
                                               ///< (a parameter of a peer is open)
   std::vector<std::string> notes;             ///< what was decided on the user's behalf ("auto: ...")

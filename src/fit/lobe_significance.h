@@ -6,9 +6,9 @@
 // does not tell: under noise alone the search picks the shape that makes it large. What tells is what leaving all lobes
 // out costs in chi-square, readings divided by the standard deviation of their noise, the other coefficients solved
 // again: with C channels chi-square of C degrees of freedom under noise alone (or of one, for the channel that loses
-// most, C times), and what halves the loss itself is no noise either. The level is that of four standard deviations, 6.3e-5: the search tries some fifty slopes, of which
-// about twenty are independent, so noise passes once in a thousand scans, and five standard deviations in one channel
-// of a hundred do.
+// most, C times), and what halves the loss itself is no noise either. The level is that of four standard
+// deviations, 6.3e-5: the search tries some fifty slopes, of which about twenty are independent, so noise passes once
+// in a thousand scans, and five standard deviations in one channel of a hundred do.
 
 #include <cstddef>
 #include <vector>

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "fit/cross_validation.h"
 #include "fit/parameter_settings.h"
+#include "fit/reading_noise.h"
 #include "fit/surface_basis.h"
 #include "peers/peers.h"
 #include "support/error.h"
@@ -14,6 +16,7 @@ namespace goniofit {
 namespace {
 
 constexpr double default_n = 1.5;
+constexpr std::size_t least_angles = 3;
 
 // One value for all channels, one a channel, or none.
 std::optional<double> per_channel(const std::vector<double>& values, std::size_t channel, std::size_t channels,
@@ -64,6 +67,7 @@ Problem::Problem(const Scan& scan, const FitSettings& settings)
   choose_weights(scan, settings);
   fill_values(scan, settings);
   fill_targets();
+  choose_uncertainty(scan, settings);
 }
 
 Problem::Problem(std::unique_ptr<const Basis> own_basis, Readings readings, const FitSettings& settings)
@@ -286,6 +290,24 @@ void Problem::choose_coefficients(const FitSettings& settings) {
       channel.lower[j] = low;
       channel.upper[j] = setting.max || setting.value ? high : std::min(high, k.upper);
     }
+  }
+}
+
+void Problem::choose_uncertainty(const Scan& scan, const FitSettings& settings) {
+  scale_u = settings.scale_u.value_or(scan.scale_u.value_or(0.0));
+  check_range(scale_u, 0.0, 1.0, "scale-u");
+  const bool stated = states_uncertainties(*this);
+  uncertainty = settings.uncertainty.value_or(stated ? UncertaintySource::readings : UncertaintySource::residuals);
+  if (uncertainty == UncertaintySource::readings && !stated) {
+    throw usage_error(scan.source +
+                      ": uncertainties from the readings are asked for, but not every channel has a column of its own, "
+                      "expected u_NAME beside each");
+  }
+  if (uncertainty != UncertaintySource::angles) return;
+  const std::size_t groups = angle_groups(*this).count();
+  if (groups < least_angles) {
+    throw usage_error(scan.source + ": uncertainties from the incidence angles are asked for, of which it has " +
+                      std::to_string(groups) + ", expected at least " + std::to_string(least_angles));
   }
 }
 

@@ -133,6 +133,9 @@ class Problem {
   std::size_t optics_groups = 0;
   double total = 0.0;  ///< loss of a model that is zero
 
+  UncertaintySource uncertainty = UncertaintySource::residuals;  ///< as asked for, or as the readings allow
+  double scale_u = 0.0;  ///< relative standard uncertainty of the instrument's scale
+
   Exclusions exclusions;
   std::vector<std::string> notes, warnings;
 
@@ -154,6 +157,7 @@ class Problem {
   void choose_coefficients(const FitSettings& settings);
   void fill_values(const Scan& scan, const FitSettings& settings);
   void fill_targets();
+  void choose_uncertainty(const Scan& scan, const FitSettings& settings);
 };
 
 /// The residual of a row of which the model says f, under a loss that is not quadratic: see Model::residuals.

@@ -8,6 +8,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "../brdf/material.h"
@@ -26,6 +27,16 @@ enum class Weight : std::uint8_t { cosine, none, cosine_solid_angle, solid_angle
 /// What a fit makes least: see fit/loss.h.
 enum class Loss : std::uint8_t { cosine_l2, inverse_variance, relative, log1p, cube_root };
 enum class RobustKernel : std::uint8_t { none, huber, soft_l1, cauchy, tukey };
+
+/// What standard uncertainties come from: the readings' own, the residuals, or the differences between incidence angles
+/// (see fit/spread.h). Automatic is the readings where every channel states theirs, else the residuals.
+enum class UncertaintySource : std::uint8_t { readings, residuals, angles };
+/// "readings", "residuals", "incidence angles".
+[[nodiscard]] std::string_view name_of(UncertaintySource source) noexcept;
+
+/// Sets what "auto", "readings", "residuals" or "angles" asks for; false for another word.
+[[nodiscard]] bool parse_uncertainty(std::string_view word, std::optional<UncertaintySource>& to) noexcept;
+inline constexpr std::string_view uncertainty_words = "auto, readings, residuals or angles";
 
 /// Readings that a fit leaves out, each rule counted in its report; theta beyond FitSettings::max_theta_deg as well.
 struct ExclusionSettings {
@@ -51,6 +62,7 @@ struct FitSettings {
   /// Relative standard uncertainty of the instrument's absolute scale, common to all readings; else the scan's.
   std::optional<double> scale_u;
   std::optional<ReflectanceReadings> reflectances;  ///< fitted beside the scan, by their channels' names
+  std::optional<UncertaintySource> uncertainty;     ///< nullopt is automatic
   std::vector<double> n, kappa, f0;  ///< none (scan's metadata, else n = 1.5, kappa = 0), one, or one a channel
   FreeOptics free_optics = FreeOptics::none;
   /// By name: a shape parameter (slope, tail ...), tau_um, a coefficient (k_dd, rho ...), n or f0 for every channel, or

@@ -4,6 +4,8 @@
 #include <limits>
 #include <optional>
 
+#include "fit/intervals.h"
+
 namespace goniofit {
 
 namespace {
@@ -40,6 +42,7 @@ class Rows {
   [[nodiscard]] std::optional<LogLinear> log_sigma() const;
   [[nodiscard]] double standard_uncertainty(const Eigen::VectorXd& gradient, const Eigen::MatrixXd& covariance) const;
   [[nodiscard]] ParameterState state_of(const Eigen::VectorXd& gradient) const;
+  [[nodiscard]] ParameterUncertainty uncertainty_of(const Eigen::VectorXd& gradient) const;
   [[nodiscard]] FittedParameter fitted(const std::string& name, const LogLinear& x, double origin, double lower,
                                        double upper) const;
   [[nodiscard]] FittedParameter basis_row(std::size_t i) const;
@@ -53,6 +56,7 @@ class Rows {
 
 // Of g · z, by the covariance of z; NaN where a z that it reads has none.
 double Rows::standard_uncertainty(const Eigen::VectorXd& gradient, const Eigen::MatrixXd& covariance) const {
+  if (covariance.size() == 0) return no_uncertainty;
   double variance = 0.0;
   for (int a = 0; a < problem_.shape.free; ++a) {
     if (gradient[a] == 0.0) continue;
@@ -75,20 +79,59 @@ ParameterState Rows::state_of(const Eigen::VectorXd& gradient) const {
   return state;
 }
 
-// A parameter that is one of z, or fixed.
+// Of g · z. Intervals reach as far as those of the z that contributes most; only one of z itself can be on a bound.
+ParameterUncertainty Rows::uncertainty_of(const Eigen::VectorXd& gradient) const {
+  ParameterUncertainty out;
+  out.state = state_of(gradient);
+  out.u = standard_uncertainty(gradient, u_.covariance);
+  out.u_classical = standard_uncertainty(gradient, u_.covariance_classical);
+  double by_scale = 0.0;
+  double most = 0.0;
+  for (int a = 0; a < problem_.shape.free; ++a) {
+    const ParameterUncertainty& parent = u_.shape[static_cast<std::size_t>(a)];
+    if (gradient[a] == 0.0) continue;
+    if (parent.index >= 0 && u_.by_scale.size() > 0) by_scale += gradient[a] * u_.by_scale[parent.index];
+    if (std::fabs(gradient[a]) * parent.u > most) {
+      most = std::fabs(gradient[a]) * parent.u;
+      out.k = parent.k;
+    }
+    if (gradient[a] == 1.0) out.released = parent.released;
+  }
+  out.u_scale = std::fabs(by_scale) * problem_.scale_u;
+  set_by_readings(out, standard_uncertainty(gradient, u_.covariance_readings), u_.reduced_chi_square);
+  return out;
+}
+
+// From those of the logarithm.
+void set_intervals(FittedParameter& p, const ParameterIntervals& of_log, double origin) {
+  const auto exponential = [origin](const Interval& x) {
+    return Interval{origin + std::exp(x.lower), origin + std::exp(x.upper)};
+  };
+  p.interval_68 = p.value && of_log.at_68 ? std::optional(exponential(*of_log.at_68)) : std::nullopt;
+  p.interval_95 = p.value && of_log.at_95 ? std::optional(exponential(*of_log.at_95)) : std::nullopt;
+}
+
+// A parameter that is one of z, or fixed. Its logarithm is what is normally distributed.
 FittedParameter Rows::fitted(const std::string& name, const LogLinear& x, double origin, double lower,
                              double upper) const {
   const ShapeMap& map = problem_.shape;
+  double log_lower = -infinity;
+  double log_upper = infinity;
   for (int a = 0; a < map.free; ++a) {
     if (x.gradient[a] == 0.0) continue;
-    lower = map.lower_value[static_cast<std::size_t>(a)];
-    upper = map.upper_value[static_cast<std::size_t>(a)];
+    const auto i = static_cast<std::size_t>(a);
+    lower = map.lower_value[i];
+    upper = map.upper_value[i];
+    log_lower = map.lower[i];
+    log_upper = map.upper[i];
   }
   const double scale = std::exp(x.log_value);
-  const double u = scale * standard_uncertainty(x.gradient, u_.covariance);
-  const double classical = scale * standard_uncertainty(x.gradient, u_.covariance_classical);
-  FittedParameter p = parameter_row(name, "", origin + scale, lower, upper, {state_of(x.gradient), u, -1, classical});
-  if (p.fixed) p.u = p.u_classical = std::nullopt;
+  const ParameterUncertainty of_log = uncertainty_of(x.gradient);
+  ParameterUncertainty u = of_log;
+  for (double* part : {&u.u, &u.u_classical, &u.u_readings, &u.u_readings_scaled, &u.u_scale}) *part *= scale;
+  FittedParameter p = parameter_row(name, "", origin + scale, lower, upper, u);
+  if (p.fixed) leave_without_uncertainty(p);
+  set_intervals(p, intervals_of(x.log_value, log_lower, log_upper, of_log), origin);
   return p;
 }
 
@@ -102,6 +145,9 @@ FittedParameter Rows::basis_row(std::size_t i) const {
 // A parameter that follows from others: no bounds of its own.
 FittedParameter Rows::derived(const std::string& name, const LogLinear& x) const {
   FittedParameter p = fitted(name, x, 0.0, 0.0, infinity);
+  ParameterUncertainty unbounded = uncertainty_of(x.gradient);
+  unbounded.released.reset();
+  set_intervals(p, intervals_of(x.log_value, -infinity, infinity, unbounded), 0.0);
   p.value = p.value ? std::optional(std::exp(x.log_value)) : std::nullopt;
   p.lower = 0.0;
   p.upper = infinity;
@@ -165,14 +211,29 @@ std::vector<FittedParameter> Rows::rows() const {
 
 }  // namespace
 
+void leave_without_uncertainty(FittedParameter& p) {
+  p.u = p.u_classical = p.u_unscaled = p.u_chi2_scaled = p.u_scale = p.coverage_factor = std::nullopt;
+  p.interval_68 = p.interval_95 = std::nullopt;
+}
+
 FittedParameter parameter_row(const std::string& name, const std::string& channel, double value, double lower,
                               double upper, const ParameterUncertainty& u) {
   FittedParameter p;
   p.name = name;
   p.channel = channel;
   if (u.state != ParameterState::undetermined) p.value = value;
-  if (std::isfinite(u.u) && p.value) p.u = u.u;
-  if (p.u && std::isfinite(u.u_classical)) p.u_classical = u.u_classical;
+  if (p.value) {
+    const auto stated = [](double x) { return std::isfinite(x) ? std::optional(x) : std::nullopt; };
+    p.u = stated(u.u);
+    if (p.u) p.u_classical = stated(u.u_classical);
+    p.u_unscaled = stated(u.u_readings);
+    p.u_chi2_scaled = stated(u.u_readings_scaled);
+    if (p.u && u.u_scale > 0.0) p.u_scale = u.u_scale;
+    const ParameterIntervals intervals = intervals_of(value, lower, upper, u);
+    p.interval_68 = intervals.at_68;
+    p.interval_95 = intervals.at_95;
+    p.coverage_factor = intervals.coverage_factor;
+  }
   p.lower = lower;
   p.upper = upper;
   p.fixed = u.state == ParameterState::fixed;

@@ -14,8 +14,12 @@ namespace goniofit {
 [[nodiscard]] std::vector<FittedParameter> shape_rows(const Problem& problem, const FitPoint& point,
                                                       const Uncertainties& u);
 
-/// A row of the report from a value, its bounds and what is known of its uncertainty.
+/// A row of the report from a value, its bounds and what is known of its uncertainty; the intervals are those of an
+/// estimate that is normally distributed itself.
 [[nodiscard]] FittedParameter parameter_row(const std::string& name, const std::string& channel, double value,
                                             double lower, double upper, const ParameterUncertainty& u);
+
+/// Of one that is fixed, or that has no value.
+void leave_without_uncertainty(FittedParameter& p);
 
 }  // namespace goniofit

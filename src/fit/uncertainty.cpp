@@ -1,17 +1,17 @@
 #include "fit/uncertainty.h"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <numeric>
 #include <utility>
+
+#include "fit/cross_validation.h"
+#include "fit/joint_jacobian.h"
+#include "fit/reading_noise.h"
 
 namespace goniofit {
 
 namespace {
-
-constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 
 // `column2`: what a unit step of the parameter changes, squared and summed. No more than `noise2` is no effect at all.
 ParameterState state_at(double value, double lower, double upper, double column2, double noise2) {
@@ -25,220 +25,277 @@ ParameterState state_at(double value, double lower, double upper, double column2
   return ParameterState::free;
 }
 
-// The Jacobian of one channel over the free parameters it depends on, and where these stand in the whole.
-struct Block {
-  Eigen::MatrixXd jacobian;
-  std::vector<Eigen::Index> index;
-};
-
-class Layout {
- public:
-  Layout(const Problem& problem, const FitPoint& point, const Linearisation& l, Uncertainties& out);
-  Eigen::Index size = 0;
-
- private:
-  void place(ParameterUncertainty& p) {
-    p.u = no_value;
-    if (p.state == ParameterState::free) p.index = size++;
-  }
-};
-
-Layout::Layout(const Problem& problem, const FitPoint& point, const Linearisation& l, Uncertainties& out) {
+void find_states(const Problem& problem, const FitPoint& point, const Linearisation& l, Uncertainties& out) {
   // A change of the shape by a factor e that alters the whole scan by less than the residual of one reading: nobody
   // could tell it from no change. Noise-free scans have no residual; what they hold is then known to 1e-8 of their
   // signal.
-  const double noise2 =
-      std::max(l.loss, 1e-16 * problem.total) / static_cast<double>(problem.samples() * problem.channels.size());
+  const double noise2 = std::max(l.loss, 1e-16 * problem.total) / static_cast<double>(problem.values_used());
+  const auto add = [](std::vector<ParameterUncertainty>& to, ParameterState state) {
+    to.push_back({.state = state, .u = no_uncertainty});
+  };
   for (std::size_t z = 0; z < point.z.size(); ++z) {
     double column2 = 0.0;
     for (const Eigen::MatrixXd& shape : l.by_shape) column2 += shape.col(static_cast<Eigen::Index>(z)).squaredNorm();
-    place(out.shape.emplace_back(ParameterUncertainty{
-        state_at(point.z[z], problem.shape.lower[z], problem.shape.upper[z], column2, noise2), no_value, -1}));
+    add(out.shape, state_at(point.z[z], problem.shape.lower[z], problem.shape.upper[z], column2, noise2));
   }
   for (std::size_t c = 0; c < problem.channels.size(); ++c) {
     const ProblemChannel& channel = problem.channels[c];
     std::vector<ParameterUncertainty>& row = out.coefficients.emplace_back();
     for (Eigen::Index j = 0; j < channel.lower.size(); ++j) {
       const double column2 = l.by_coefficient[c].col(j).squaredNorm();
-      place(row.emplace_back(ParameterUncertainty{
-          state_at(point.coefficients[c][j], channel.lower[j], channel.upper[j], column2, 0.0), no_value, -1}));
+      add(row, state_at(point.coefficients[c][j], channel.lower[j], channel.upper[j], column2, 0.0));
     }
-    if (!point.optics.empty()) {
-      place(out.optics.emplace_back(ParameterUncertainty{
-          state_at(point.optics[c], channel.optics_lower, channel.optics_upper, l.by_optics[c].squaredNorm(), 0.0),
-          no_value, -1}));
-    }
+    if (point.optics.empty()) continue;
+    add(out.optics,
+        state_at(point.optics[c], channel.optics_lower, channel.optics_upper, l.by_optics[c].squaredNorm(), 0.0));
   }
 }
 
-// Its columns in the order that Layout placed them.
-Block block_of(std::size_t channel, const Linearisation& l, const Uncertainties& u) {
-  Block b;
-  std::vector<Eigen::VectorXd> columns;
-  for (std::size_t z = 0; z < u.shape.size(); ++z) {
-    if (u.shape[z].index < 0) continue;
-    b.index.push_back(u.shape[z].index);
-    columns.emplace_back(l.by_shape[channel].col(static_cast<Eigen::Index>(z)));
+bool is_free(const ParameterUncertainty& p) { return p.state == ParameterState::free; }
+bool is_on_bound(const ParameterUncertainty& p) {
+  return p.state == ParameterState::at_lower || p.state == ParameterState::at_upper;
+}
+
+// Numbers the parameters that `chosen` is true of: the shape first, then channel after channel.
+template <class Chosen>
+ParameterPlaces places_of(const Uncertainties& u, const Chosen& chosen) {
+  ParameterPlaces places;
+  const auto place = [&](const ParameterUncertainty& p) { return chosen(p) ? places.size++ : -1; };
+  for (const ParameterUncertainty& p : u.shape) places.shape.push_back(place(p));
+  for (std::size_t c = 0; c < u.coefficients.size(); ++c) {
+    std::vector<Eigen::Index>& row = places.coefficients.emplace_back();
+    for (const ParameterUncertainty& p : u.coefficients[c]) row.push_back(place(p));
+    if (!u.optics.empty()) places.optics.push_back(place(u.optics[c]));
   }
-  for (std::size_t j = 0; j < u.coefficients[channel].size(); ++j) {
-    if (u.coefficients[channel][j].index < 0) continue;
-    b.index.push_back(u.coefficients[channel][j].index);
-    columns.emplace_back(l.by_coefficient[channel].col(static_cast<Eigen::Index>(j)));
-  }
-  if (!u.optics.empty() && u.optics[channel].index >= 0) {
-    b.index.push_back(u.optics[channel].index);
-    columns.push_back(l.by_optics[channel]);
-  }
-  b.jacobian.resize(l.residuals[channel].size(), static_cast<Eigen::Index>(columns.size()));
-  for (std::size_t j = 0; j < columns.size(); ++j) b.jacobian.col(static_cast<Eigen::Index>(j)) = columns[j];
-  return b;
+  return places;
 }
 
 template <class F>
-void for_each_parameter(Uncertainties& u, const F& f) {
-  for (ParameterUncertainty& p : u.shape) f(p);
-  for (auto& row : u.coefficients) {
-    for (ParameterUncertainty& p : row) f(p);
-  }
-  for (ParameterUncertainty& p : u.optics) f(p);
+void for_each_place(Uncertainties& u, const ParameterPlaces& places, const F& f) {
+  const auto visit = [&f](std::vector<ParameterUncertainty>& row, const std::vector<Eigen::Index>& at) {
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      if (at[i] >= 0) f(row[i], at[i]);
+    }
+  };
+  visit(u.shape, places.shape);
+  for (std::size_t c = 0; c < u.coefficients.size(); ++c) visit(u.coefficients[c], places.coefficients[c]);
+  visit(u.optics, places.optics);
 }
 
-// Parameters that lie in a null direction of the equilibrated normal matrix to double precision.
-std::vector<bool> in_null_space(const Eigen::MatrixXd& equilibrated) {
-  std::vector<bool> null(static_cast<std::size_t>(equilibrated.rows()), false);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(equilibrated);
-  for (Eigen::Index k = 0; k < equilibrated.rows(); ++k) {
-    if (eigen.eigenvalues()[k] > 1e-12) break;
-    for (Eigen::Index i = 0; i < equilibrated.rows(); ++i) {
-      if (std::fabs(eigen.eigenvectors()(i, k)) > 0.1) null[static_cast<std::size_t>(i)] = true;
-    }
-  }
-  return null;
-}
-
-// R of m = QR.
-Eigen::MatrixXd triangle_of(const Eigen::MatrixXd& m) {
-  const Eigen::Index rows = std::min(m.rows(), m.cols());
-  if (rows == 0) return Eigen::MatrixXd::Zero(0, m.cols());
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(m);
-  return qr.matrixQR().topRows(rows).triangularView<Eigen::Upper>();
-}
-
-// The triangle R of J = QR over the whole problem, by way of those of its blocks, its columns scaled to norm 1. Not by
-// Cholesky's of JᵀJ, whose condition is the square of J's: with parameters that all but stand in for each other (three
-// exponentials, quotients of cubics) half the digits would go.
-class Triangle {
- public:
-  Triangle(const std::vector<Block>& blocks, Eigen::Index size) : scale_(Eigen::VectorXd::Zero(size)) {
-    std::vector<Eigen::MatrixXd> triangles;
-    Eigen::Index rows = 0;
-    for (const Block& b : blocks) {
-      triangles.push_back(triangle_of(b.jacobian));
-      rows += triangles.back().rows();
-    }
-    Eigen::MatrixXd stacked = Eigen::MatrixXd::Zero(rows, size);
-    rows = 0;
-    for (std::size_t c = 0; c < blocks.size(); ++c) {
-      for (std::size_t j = 0; j < blocks[c].index.size(); ++j) {
-        stacked.block(rows, blocks[c].index[j], triangles[c].rows(), 1) =
-            triangles[c].col(static_cast<Eigen::Index>(j));
-      }
-      rows += triangles[c].rows();
-    }
-    scale_ = stacked.colwise().norm().cwiseInverse();
-    r_ = triangle_of(stacked * scale_.asDiagonal());
-  }
-
-  /// JᵀJ, its columns scaled.
-  [[nodiscard]] Eigen::MatrixXd equilibrated() const { return r_.transpose() * r_; }
-  /// Fewer readings than parameters, or dependent columns: the bound is on what is left of a column of norm 1 when
-  /// those before it have had their share.
-  [[nodiscard]] bool singular() const { return r_.rows() < r_.cols() || !(r_.diagonal().cwiseAbs().minCoeff() > 1e-6); }
-  /// B with B Bᵀ = (JᵀJ)⁻¹.
-  [[nodiscard]] Eigen::MatrixXd inverse_root() const {
-    const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(r_.rows(), r_.cols());
-    return scale_.asDiagonal() * r_.triangularView<Eigen::Upper>().solve(identity);
-  }
-
- private:
-  Eigen::VectorXd scale_;
-  Eigen::MatrixXd r_;
-};
-
-// A reading that alone determines a parameter has no residual to speak of, and the parameter no uncertainty to state.
-constexpr double full_leverage = 1.0 - 1e-9;
-
-Eigen::MatrixXd rows_of(const Eigen::MatrixXd& m, const std::vector<Eigen::Index>& index) {
-  Eigen::MatrixXd rows(static_cast<Eigen::Index>(index.size()), m.cols());
-  for (std::size_t i = 0; i < index.size(); ++i) rows.row(static_cast<Eigen::Index>(i)) = m.row(index[i]);
-  return rows;
-}
-
-// HC3 of all blocks, and which parameters have none because a single reading decides them.
-struct Sandwich {
-  Eigen::MatrixXd covariance;
-  std::vector<bool> single;
-};
-
-Sandwich sandwich(const std::vector<Block>& blocks, const Linearisation& l, const Eigen::MatrixXd& root) {
-  const Eigen::Index size = root.rows();
-  Sandwich out;
-  out.single.assign(static_cast<std::size_t>(size), false);
-  Eigen::MatrixXd meat = Eigen::MatrixXd::Zero(size, size);
-  for (std::size_t c = 0; c < blocks.size(); ++c) {
-    const Block& b = blocks[c];
-    const Eigen::MatrixXd own = rows_of(root, b.index);
-    const Eigen::VectorXd leverage = (b.jacobian * triangle_of(own.transpose()).transpose()).rowwise().squaredNorm();
-    Eigen::VectorXd e(leverage.size());
-    for (Eigen::Index i = 0; i < leverage.size(); ++i) {
-      const bool decides = leverage[i] >= full_leverage;
-      e[i] = decides ? 0.0 : l.residuals[c][i] / (1.0 - leverage[i]);
-      for (Eigen::Index j = 0; decides && j < own.rows(); ++j) {
-        if (b.jacobian(i, j) * b.jacobian(i, j) * own.row(j).squaredNorm() > 0.25)
-          out.single[static_cast<std::size_t>(b.index[static_cast<std::size_t>(j)])] = true;
-      }
-    }
-    // In the coordinates of B, and by triangles: nothing is lost to the condition of J squared.
-    const Eigen::MatrixXd weighted = triangle_of(e.asDiagonal() * b.jacobian) * own;
-    meat.noalias() += weighted.transpose() * weighted;
-  }
-  out.covariance = root * meat * root.transpose();
+template <class F>
+std::vector<Eigen::VectorXd> by_channel(const Problem& problem, const F& f) {
+  std::vector<Eigen::VectorXd> out;
+  for (std::size_t c = 0; c < problem.channels.size(); ++c) out.emplace_back(f(c));
   return out;
+}
+
+// A robust kernel's reweighting overstates what the readings say by the share of the kernel's curvature.
+Spread without_reweighting(Spread spread, const Linearisation& l) {
+  spread.covariance /= l.kernel_share * l.kernel_share;
+  return spread;
+}
+
+Spread spread_of_readings(const Problem& problem, const Linearisation& l, const JointJacobian& j) {
+  return without_reweighting(
+      spread_by_readings(j, by_channel(problem, [&](std::size_t c) { return reading_sd(problem, l, c); })), l);
+}
+
+// Of the parameters asked for.
+Spread spread_of(const Problem& problem, const Linearisation& l, const JointJacobian& j,
+                 const std::vector<Eigen::VectorXd>& residuals, const std::vector<Eigen::Index>& parameters) {
+  switch (problem.uncertainty) {
+    case UncertaintySource::readings:
+      return spread_of_readings(problem, l, j);
+    case UncertaintySource::angles:
+      return without_reweighting(spread_by_angles(j, residuals, angle_groups(problem)), l);
+    case UncertaintySource::residuals:
+      break;
+  }
+  const auto variance =
+      by_channel(problem, [&](std::size_t c) { return estimated_variance(problem, l, c, residuals[c]); });
+  return without_reweighting(spread_by_residuals(j, residuals, variance, parameters), l);
+}
+
+Eigen::VectorXd change_by_scale(const Problem& problem, const Linearisation& l, const JointJacobian& j) {
+  if (problem.scale_u == 0.0) return Eigen::VectorXd::Zero(j.size());
+  return -j.solve(by_channel(problem, [&](std::size_t c) { return residual_by_scale(problem, l, c); }));
+}
+
+// The scale is known as normally distributed: it takes its part of the square out of what is open in `k` (Welch).
+CoverageFactors with_scale(const CoverageFactors& k, double u, double u_scale) {
+  if (u_scale == 0.0) return k;
+  const double part = u * u / (u * u + u_scale * u_scale);
+  const CoverageFactors normal;
+  const auto mixed = [part](double own, double other) {
+    return std::sqrt(part * own * own + (1.0 - part) * other * other);
+  };
+  return {mixed(k.at_68, normal.at_68), mixed(k.at_95, normal.at_95)};
+}
+
+struct Stated {
+  double u;
+  CoverageFactors k;
+};
+Stated stated(const Spread& spread, Eigen::Index i, double u_scale) {
+  const double u = std::sqrt(spread.covariance(i, i));
+  return {std::hypot(u, u_scale), with_scale(spread.k[static_cast<std::size_t>(i)], u, u_scale)};
+}
+
+// Of readings that have a say in the loss.
+double reduced_chi_square(const Problem& problem, const Linearisation& l, Eigen::Index parameters) {
+  double sum = 0.0;
+  Eigen::Index count = 0;
+  for (std::size_t c = 0; c < problem.channels.size(); ++c) {
+    const Eigen::VectorXd sd = reading_sd(problem, l, c);
+    for (Eigen::Index i = 0; i < sd.size(); ++i) {
+      if (!(sd[i] > 0.0)) continue;
+      sum += l.residuals[c][i] * l.residuals[c][i] / (sd[i] * sd[i]);
+      ++count;
+    }
+  }
+  return count > parameters ? sum / static_cast<double>(count - parameters) : no_uncertainty;
+}
+
+// What the readings' own uncertainties give, whatever is stated.
+void add_readings(const Problem& problem, const Linearisation& l, const JointJacobian& j, const ParameterPlaces& places,
+                  Uncertainties& out) {
+  if (!states_uncertainties(problem)) return;
+  out.covariance_readings = spread_of_readings(problem, l, j).covariance;
+  out.reduced_chi_square = reduced_chi_square(problem, l, places.size);
+}
+
+void add_stated(const Problem& problem, const Linearisation& l, const JointJacobian& j, const ParameterPlaces& places,
+                Uncertainties& out) {
+  const bool by_readings = problem.uncertainty == UncertaintySource::readings;
+  const auto size = static_cast<std::size_t>(places.size);
+  std::vector<Eigen::Index> all(size);
+  std::iota(all.begin(), all.end(), Eigen::Index{0});
+  const Spread spread =
+      by_readings ? Spread{out.covariance_readings, std::vector<CoverageFactors>(size), std::vector<bool>(size, false)}
+                  : spread_of(problem, l, j, l.residuals, all);
+  out.by_scale = change_by_scale(problem, l, j);
+  out.covariance = spread.covariance + problem.scale_u * problem.scale_u * out.by_scale * out.by_scale.transpose();
+  for_each_place(out, places, [&](ParameterUncertainty& p, Eigen::Index i) {
+    p.u_scale = std::fabs(out.by_scale[i]) * problem.scale_u;
+    if (out.covariance_readings.size() > 0)
+      set_by_readings(p, std::sqrt(out.covariance_readings(i, i)), out.reduced_chi_square);
+    if (spread.single[static_cast<std::size_t>(i)]) return;
+    const Stated s = stated(spread, i, p.u_scale);
+    p.u = s.u;
+    p.k = s.k;
+  });
+}
+
+bool points_outward(const ParameterUncertainty& p) {
+  return p.state == ParameterState::at_lower ? p.released->step <= 0.0 : p.released->step >= 0.0;
+}
+
+// Everything on a bound, released. Where these cannot all be told from each other, or some would turn into the interval
+// once others have left theirs, each by itself.
+void release(const Problem& problem, const Linearisation& l, const ParameterPlaces& places, Uncertainties& out) {
+  const JointJacobian j(l, places);
+  const bool spare = problem.values_used() > static_cast<std::size_t>(j.size());
+  if (j.singular() || (!spare && problem.uncertainty != UncertaintySource::readings)) return;
+  const Eigen::VectorXd step = -j.solve(l.residuals);
+  std::vector<Eigen::VectorXd> residuals = l.residuals;
+  for (std::size_t c = 0; c < residuals.size(); ++c) residuals[c] += j.blocks()[c].jacobian * step(j.blocks()[c].index);
+  std::vector<Eigen::Index> held;
+  for_each_place(out, places, [&held](const ParameterUncertainty& p, Eigen::Index i) {
+    if (is_on_bound(p)) held.push_back(i);
+  });
+  const Spread spread = spread_of(problem, l, j, residuals, held);
+  const Eigen::VectorXd by_scale = change_by_scale(problem, l, j);
+  for_each_place(out, places, [&](ParameterUncertainty& p, Eigen::Index i) {
+    if (!is_on_bound(p) || spread.single[static_cast<std::size_t>(i)]) return;
+    const Stated s = stated(spread, i, std::fabs(by_scale[i]) * problem.scale_u);
+    p.released = Released{step[i], s.u, s.k};
+  });
+}
+
+void release_bounds(const Problem& problem, const Linearisation& l, Uncertainties& out) {
+  const ParameterPlaces all = places_of(out, [](const auto& p) { return is_free(p) || is_on_bound(p); });
+  std::vector<ParameterUncertainty*> held;
+  for_each_place(out, all, [&held](ParameterUncertainty& p, Eigen::Index) {
+    if (is_on_bound(p)) held.push_back(&p);
+  });
+  if (held.empty()) return;
+  release(problem, l, all, out);
+  for (const ParameterUncertainty* one : held) {
+    if (one->released && points_outward(*one)) continue;
+    release(problem, l, places_of(out, [one](const auto& p) { return is_free(p) || &p == one; }), out);
+  }
 }
 
 }  // namespace
 
+std::string_view name_of(UncertaintySource source) noexcept {
+  switch (source) {
+    case UncertaintySource::readings:
+      return "readings";
+    case UncertaintySource::angles:
+      return "incidence angles";
+    case UncertaintySource::residuals:
+      break;
+  }
+  return "residuals";
+}
+
+bool parse_uncertainty(std::string_view word, std::optional<UncertaintySource>& to) noexcept {
+  if (word == "auto") {
+    to.reset();
+  } else if (word == "readings") {
+    to = UncertaintySource::readings;
+  } else if (word == "residuals") {
+    to = UncertaintySource::residuals;
+  } else if (word == "angles") {
+    to = UncertaintySource::angles;
+  } else {
+    return false;
+  }
+  return true;
+}
+
+void set_by_readings(ParameterUncertainty& p, double u, double reduced_chi_square) {
+  p.u_readings = std::hypot(u, p.u_scale);
+  p.u_readings_scaled = std::hypot(u * std::sqrt(reduced_chi_square), p.u_scale);
+}
+
 Uncertainties uncertainties(const Problem& problem, const FitPoint& point, const Linearisation& l) {
   Uncertainties out;
-  const Layout layout(problem, point, l, out);
-  if (layout.size == 0) return out;
-  std::vector<Block> blocks;
-  for (std::size_t c = 0; c < problem.channels.size(); ++c) blocks.push_back(block_of(c, l, out));
-  const Triangle triangle(blocks, layout.size);
-  if (triangle.singular()) {
-    const std::vector<bool> null = in_null_space(triangle.equilibrated());
-    for_each_parameter(out, [&null](ParameterUncertainty& p) {
-      if (p.index >= 0 && null[static_cast<std::size_t>(p.index)]) p.state = ParameterState::undetermined;
-      p.index = -1;
+  out.source = problem.uncertainty;
+  find_states(problem, point, l, out);
+  const ParameterPlaces places = places_of(out, is_free);
+  if (places.size == 0) {
+    release_bounds(problem, l, out);
+    return out;
+  }
+  const JointJacobian j(l, places);
+  if (j.singular()) {
+    const std::vector<bool> null = j.in_null_space();
+    for_each_place(out, places, [&null](ParameterUncertainty& p, Eigen::Index i) {
+      if (null[static_cast<std::size_t>(i)]) p.state = ParameterState::undetermined;
     });
     return out;
   }
-  const Eigen::MatrixXd root = triangle.inverse_root();
-  out.covariance_unscaled = root * root.transpose();
-  for_each_parameter(out, [&out](ParameterUncertainty& p) {
-    if (p.index >= 0) p.u_unscaled = std::sqrt(out.covariance_unscaled(p.index, p.index));
+  out.covariance_unscaled = j.root() * j.root().transpose();
+  for_each_place(out, places, [&out](ParameterUncertainty& p, Eigen::Index i) {
+    p.index = i;
+    p.u_unscaled = std::sqrt(out.covariance_unscaled(i, i));
   });
-  const auto residuals = static_cast<Eigen::Index>(problem.samples() * problem.channels.size());
-  if (residuals <= layout.size) return out;
-  out.residual_variance = l.loss / static_cast<double>(residuals - layout.size);
-  out.covariance_classical = out.residual_variance * out.covariance_unscaled;
-  Sandwich hc3 = sandwich(blocks, l, root);
-  out.covariance = std::move(hc3.covariance);
-  for_each_parameter(out, [&](ParameterUncertainty& p) {
-    if (p.index < 0) return;
-    p.u_classical = std::sqrt(out.covariance_classical(p.index, p.index));
-    if (!hc3.single[static_cast<std::size_t>(p.index)]) p.u = std::sqrt(out.covariance(p.index, p.index));
-  });
+  add_readings(problem, l, j, places, out);
+  const auto residuals = static_cast<Eigen::Index>(problem.values_used());
+  const bool spare = residuals > places.size;
+  if (spare) {
+    out.residual_variance = l.loss / static_cast<double>(residuals - places.size);
+    out.covariance_classical = out.residual_variance * out.covariance_unscaled;
+    for_each_place(out, places, [&out](ParameterUncertainty& p, Eigen::Index i) {
+      p.u_classical = std::sqrt(out.covariance_classical(i, i));
+    });
+  } else if (problem.uncertainty != UncertaintySource::readings) {
+    return out;
+  }
+  add_stated(problem, l, j, places, out);
+  release_bounds(problem, l, out);
   return out;
 }
 

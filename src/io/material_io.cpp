@@ -133,7 +133,8 @@ Interval read_interval(const JsonValue& value) {
 }
 
 FitSummary read_fit(const JsonValue& object) {
-  object.expect_keys({"loss", "rms", "samples", "converged", "uncertainty", "identifiable", "interval_95"});
+  object.expect_keys(
+      {"loss", "rms", "samples", "converged", "uncertainty", "identifiable", "uncertainty_from", "interval_95"});
   FitSummary fit;
   fit.loss = object.at("loss").number();
   fit.rms = object.at("rms").number();
@@ -144,6 +145,7 @@ FitSummary read_fit(const JsonValue& object) {
     identifiable->for_each_member(
         [&](const std::string& name, const JsonValue& value) { fit.identifiable[name] = value.boolean(); });
   }
+  if (const auto from = object.find("uncertainty_from")) fit.uncertainty_from = from->text();
   if (const auto intervals = object.find("interval_95")) {
     intervals->for_each_member(
         [&](const std::string& name, const JsonValue& value) { fit.interval_95[name] = read_interval(value); });
@@ -260,6 +262,7 @@ Ordered fit_json(const FitSummary& fit, const std::vector<MaterialChannel>& chan
               {"converged", fit.converged},
               {"uncertainty", std::move(uncertainty)},
               {"identifiable", fit.identifiable}};
+  if (!fit.uncertainty_from.empty()) out["uncertainty_from"] = fit.uncertainty_from;
   for (const auto& [parameter, interval] : fit.interval_95) {
     out["interval_95"][parameter] = {interval.lower, interval.upper};
   }

@@ -109,6 +109,11 @@ void read_exclusions(const TomlValue& table, ExclusionSettings& exclude) {
   if (const auto clamped = table.find("clamped")) exclude.clamped = clamped->boolean();
 }
 
+void read_uncertainty_source(const TomlValue& value, FitSettings& settings) {
+  if (parse_uncertainty(value.text(), settings.uncertainty)) return;
+  value.fail(in_quotes(value.text()) + " is not known, expected " + std::string(uncertainty_words));
+}
+
 std::vector<std::string> read_channels(const TomlValue& array) {
   std::vector<std::string> names;
   array.for_each_element("an array of channel names", [&](const TomlValue& element) {
@@ -217,9 +222,10 @@ void read_model(const TomlValue& document, const Basis* peer, FitSettings& setti
 
 // Optics and parameters read what comes before them: the model, the channels and the Fresnel tier.
 Recipe read_document(const TomlValue& document) {
-  document.expect_keys({"name", "scan", "model", "components", "terms", "forms", "anisotropic", "loss", "weight",
-                        "robust", "exclude", "reflectances", "max_theta_deg", "solid_angle_sr", "channels", "seed",
-                        "optics", "parameters", "verify"});
+  document.expect_keys({"name",          "scan",           "model",    "components", "terms",       "forms",
+                        "anisotropic",   "loss",           "weight",   "robust",     "exclude",     "reflectances",
+                        "max_theta_deg", "solid_angle_sr", "channels", "seed",       "uncertainty", "scale_u",
+                        "optics",        "parameters",     "verify"});
   Recipe recipe;
   recipe.source = document.source();
   FitSettings& settings = recipe.settings;
@@ -231,6 +237,8 @@ Recipe read_document(const TomlValue& document) {
   read_loss(document, settings);
   if (const auto exclude = document.find("exclude")) read_exclusions(*exclude, settings.exclusions);
   if (const auto file = document.find("reflectances")) recipe.reflectances = beside(recipe, *file, "a path");
+  if (const auto from = document.find("uncertainty")) read_uncertainty_source(*from, settings);
+  if (const auto u = document.find("scale_u")) settings.scale_u = read_number(*u, unit_interval());
   if (const auto theta = document.find("max_theta_deg")) settings.max_theta_deg = read_number(*theta, theta_range());
   if (const auto angle = document.find("solid_angle_sr"))
     settings.solid_angle_sr = read_number(*angle, solid_angle_range());

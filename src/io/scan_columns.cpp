@@ -191,6 +191,7 @@ void apply_entry(std::string_view key, const std::string& value, Scan& scan) {
   }
   if (key == scan_key::name && !value.empty()) scan.name = value;
   if (key == scan_key::solid_angle_sr) scan.solid_angle_sr = parse_solid_angle_sr(value);
+  if (key == scan_key::scale_u) scan.scale_u = parse_scale_u(value);
   if (key == scan_key::wavelength_um) apply_list(parse_wavelength_um(value), scan.channels, set_wavelength);
   if (key == scan_key::refractive_index) apply_list(parse_refractive_index(value), scan.channels, set_index);
 }

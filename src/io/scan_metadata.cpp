@@ -79,7 +79,8 @@ double parse_wavelength(std::string_view entry) {
 
 bool is_scan_key(std::string_view key) noexcept {
   constexpr std::array keys{scan_key::version,       scan_key::name,           scan_key::refractive_index,
-                            scan_key::wavelength_um, scan_key::solid_angle_sr, scan_key::channels};
+                            scan_key::wavelength_um, scan_key::solid_angle_sr, scan_key::scale_u,
+                            scan_key::channels};
   return std::find(keys.begin(), keys.end(), key) != keys.end();
 }
 
@@ -93,6 +94,14 @@ double parse_solid_angle_sr(std::string_view text) {
   const double value = parse_value(text, "a solid angle in steradians");
   if (!(value > 0.0) || value > 2.0 * pi) {
     throw MetadataFault(in_quotes(text) + " is out of range; expected a solid angle above 0 and up to 2 pi sr");
+  }
+  return value;
+}
+
+double parse_scale_u(std::string_view text) {
+  const double value = parse_value(text, "a relative standard uncertainty");
+  if (!(value >= 0.0) || value > 1.0) {
+    throw MetadataFault(in_quotes(text) + " is out of range; expected a part of the readings from 0 to 1");
   }
   return value;
 }

@@ -18,6 +18,7 @@ inline constexpr std::string_view name = "name";
 inline constexpr std::string_view refractive_index = "refractive_index";  ///< 1.7 or 0.958+6.69i
 inline constexpr std::string_view wavelength_um = "wavelength_um";
 inline constexpr std::string_view solid_angle_sr = "solid_angle_sr";
+inline constexpr std::string_view scale_u = "scale_u";    ///< 0.01: of 1 % common to all readings
 inline constexpr std::string_view channels = "channels";  ///< columns that are channels by this line only
 }  // namespace scan_key
 [[nodiscard]] bool is_scan_key(std::string_view lower_key) noexcept;
@@ -42,6 +43,7 @@ class MetadataFault : public std::runtime_error {
 [[nodiscard]] EntryList<RefractiveIndex> parse_refractive_index(std::string_view text);
 [[nodiscard]] EntryList<double> parse_wavelength_um(std::string_view text);
 [[nodiscard]] double parse_solid_angle_sr(std::string_view text);
+[[nodiscard]] double parse_scale_u(std::string_view text);
 [[nodiscard]] std::vector<std::string> parse_channel_names(std::string_view text);
 
 /// Throws MetadataFault outside 0.01 to 100 µm, which is how nanometres taken for micrometres are found.

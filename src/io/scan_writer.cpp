@@ -107,6 +107,7 @@ std::string text_of(const Scan& scan, std::string_view key) {
   if (key == scan_key::name) return one_line(scan.name);
   if (key == scan_key::channels) return channels_text(scan);
   if (key == scan_key::solid_angle_sr) return scan.solid_angle_sr ? shortest(*scan.solid_angle_sr) : "";
+  if (key == scan_key::scale_u) return scan.scale_u ? shortest(*scan.scale_u) : "";
   if (key == scan_key::refractive_index) return list_text(indices_of(scan), index_text);
   return named_by_wavelength(scan) ? "" : list_text(wavelengths_of(scan), shortest);
 }
@@ -122,6 +123,7 @@ bool still_right(const Scan& scan, std::string_view key, const std::string& text
     if (key == scan_key::refractive_index) return says(parse_refractive_index(text), indices_of(scan));
     if (key == scan_key::wavelength_um) return says(parse_wavelength_um(text), wavelengths_of(scan));
     if (key == scan_key::solid_angle_sr) return parse_solid_angle_sr(text) == scan.solid_angle_sr;
+    if (key == scan_key::scale_u) return parse_scale_u(text) == scan.scale_u;
     if (key == scan_key::channels) return parse_channel_names(text) == parse_channel_names(channels_text(scan));
   } catch (const MetadataFault&) {
     return false;
@@ -139,7 +141,7 @@ void write_metadata(std::ostream& out, const Scan& scan) {
     if (keep || !text.empty()) out << "# " << one_line(key) << ": " << text << '\n';
   }
   for (const std::string_view key : {scan_key::version, scan_key::name, scan_key::channels, scan_key::refractive_index,
-                                     scan_key::wavelength_um, scan_key::solid_angle_sr}) {
+                                     scan_key::wavelength_um, scan_key::solid_angle_sr, scan_key::scale_u}) {
     if (std::find(written.begin(), written.end(), key) != written.end()) continue;
     const std::string text = text_of(scan, key);
     if (!text.empty()) out << "# " << key << ": " << text << '\n';

@@ -14,6 +14,7 @@
 #include "report/objective_text.h"
 #include "report/profile_report.h"
 #include "report/text_table.h"
+#include "report/uncertainty_report.h"
 
 namespace goniofit {
 namespace {
@@ -117,17 +118,18 @@ std::string bounds_text(const FittedParameter& p) {
 void add_parameter(TextTable& table, const FittedParameter& p) {
   const std::string name = p.channel.empty() ? p.name : printable(p.channel) + "." + p.name;
   if (!p.value) {
-    table.add_row({name, "–", "", "", unit_text(p.unit), bounds_text(p), remark_cell(p)});
+    table.add_row({name, "–", "", "", "", unit_text(p.unit), bounds_text(p), remark_cell(p)});
     return;
   }
   if (!p.u) {
-    table.add_row({name, number_text(*p.value), "", "", unit_text(p.unit), bounds_text(p), remark_cell(p)});
+    table.add_row(
+        {name, number_text(*p.value), "", "", interval_text(p), unit_text(p.unit), bounds_text(p), remark_cell(p)});
     return;
   }
   const ValueText text = value_text(*p.value, *p.u);
   const std::string relative = *p.value == 0.0 ? "" : percent_text(std::fabs(*p.u / *p.value));
-  table.add_row(
-      {name, text.value, "± " + text.uncertainty, relative, unit_text(p.unit), bounds_text(p), remark_cell(p)});
+  table.add_row({name, text.value, "± " + text.uncertainty, relative, interval_text(p), unit_text(p.unit),
+                 bounds_text(p), remark_cell(p)});
 }
 
 TextTable parameter_table() {
@@ -135,6 +137,7 @@ TextTable parameter_table() {
                     {"value", Align::right},
                     {"std. unc.", Align::left},
                     {"relative", Align::right},
+                    {"95 %", Align::left},
                     {"unit", Align::left},
                     {"bounds", Align::left},
                     {"", Align::left}});
@@ -149,6 +152,8 @@ std::pair<Cell, Cell> compact_cells(const FittedParameter* p) {
     return {Cell(text.value), Cell("± " + text.uncertainty)};
   }
   const bool bound = p->at_lower || p->at_upper;
+  if (bound && !p->fixed && p->interval_95)
+    return {Cell(number_text(*p->value)), Cell(interval_text(*p), Tint::warning)};
   return {Cell(number_text(*p->value)), Cell(short_remark_of(*p), bound ? Tint::warning : Tint::faint)};
 }
 
@@ -188,8 +193,9 @@ std::string parameter_block(const FitResult& result, bool color) {
     }
   }
   out += table.str(indent, color);
-  out += tinted("  (value ± standard uncertainty, k = 1)\n", Tint::faint, color);
   if (compact) out += heading("Channels", color) + compact_channels(result, color);
+  for (const std::string& sentence : uncertainty_sentences(result))
+    out += tinted("  (" + wrapped(sentence, indent + 1) + ")\n", Tint::faint, color);
   return out;
 }
 

@@ -8,6 +8,7 @@
 #include "report/identifiability_report.h"
 #include "report/misfit_report.h"
 #include "report/profile_report.h"
+#include "report/uncertainty_report.h"
 
 namespace goniofit {
 namespace {
@@ -18,6 +19,10 @@ using Json = nlohmann::ordered_json;
 Json finite_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 Json value_or_null(const std::optional<double>& value) { return value ? finite_or_null(*value) : Json(nullptr); }
 
+Json interval_or_null(const std::optional<Interval>& interval) {
+  return interval ? Json{finite_or_null(interval->lower), finite_or_null(interval->upper)} : Json(nullptr);
+}
+
 Json parameter_json(const FittedParameter& p) {
   Json out;
   out["name"] = p.name;
@@ -26,6 +31,12 @@ Json parameter_json(const FittedParameter& p) {
   out["value"] = value_or_null(p.value);
   out["standard_uncertainty"] = value_or_null(p.u);
   out["classical_uncertainty"] = p.u ? value_or_null(p.u_classical) : Json(nullptr);
+  out["unscaled_uncertainty"] = value_or_null(p.u_unscaled);
+  out["chi2_scaled_uncertainty"] = value_or_null(p.u_chi2_scaled);
+  out["scale_uncertainty"] = value_or_null(p.u_scale);
+  out["interval_68"] = interval_or_null(p.interval_68);
+  out["interval_95"] = interval_or_null(p.interval_95);
+  out["coverage_factor"] = value_or_null(p.coverage_factor);
   out["min"] = finite_or_null(p.lower);
   out["max"] = finite_or_null(p.upper);
   out["state"] = state_of(p);
@@ -128,6 +139,7 @@ std::string fit_report_json(const FitResult& result, const Scan& scan) {
   out["model"] = model_json(result);
   out["parameters"] = Json::array();
   for (const FittedParameter& p : result.parameters) out["parameters"].push_back(parameter_json(p));
+  out["uncertainty"] = uncertainty_json(result);
   out["channels"] = channels_json(result);
   out["converged"] = result.converged;
   out["loss"] = finite_or_null(result.loss);

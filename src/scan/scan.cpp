@@ -92,6 +92,7 @@ void append_scan(Scan& to, const Scan& from) {
                           " as in the scans before it");
   }
   merge(to.solid_angle_sr, from.solid_angle_sr, from, "", "solid_angle_sr");
+  merge(to.scale_u, from.scale_u, from, "", "scale_u");
   for (std::size_t c = 0; c < to.channels.size(); ++c) append_channel(to.channels[c], from.channels[c], from);
   append(to.theta_i_deg, from.theta_i_deg);
   append(to.phi_i_deg, from.phi_i_deg);
@@ -132,6 +133,7 @@ Scan select_channels(const Scan& scan, const std::vector<std::string>& names) {
            .phi_r_deg = scan.phi_r_deg,
            .channels = {},
            .solid_angle_sr = scan.solid_angle_sr,
+           .scale_u = scan.scale_u,
            .metadata = scan.metadata};
   for (const std::size_t c : chosen) out.channels.push_back(scan.channels[c]);
   return out;

@@ -34,6 +34,7 @@ struct Scan {
   std::vector<double> theta_i_deg, phi_i_deg, theta_r_deg, phi_r_deg;
   std::vector<ScanChannel> channels;
   std::optional<double> solid_angle_sr;
+  std::optional<double> scale_u{};  ///< relative standard uncertainty of the instrument's scale, common to all readings
   std::vector<std::pair<std::string, std::string>> metadata;  ///< every `# key: value`, in file order
 
   [[nodiscard]] std::size_t size() const noexcept { return theta_i_deg.size(); }

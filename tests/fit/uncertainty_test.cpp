@@ -55,6 +55,45 @@ TEST(Uncertainty, IsTheSandwichOfTheWholeJacobian) {
   }
 }
 
+// The same with the readings' own uncertainties in place of the residuals, and an error of the scale.
+TEST(Uncertainty, PropagatesThatOfTheReadingsAndOfTheScale) {
+  const Material truth = test::laser_paper_73();
+  const Scan scan = simulate(truth, Sampling::incidence_plane, {0.02, 0.002}, 4, true);
+  FitSettings settings = settings_for(truth);
+  settings.scale_u = 0.02;
+  const Problem problem(scan, settings);
+  ASSERT_EQ(problem.uncertainty, UncertaintySource::readings);
+  const Polished best = polish(problem, search(problem).minima.front());
+  const Linearisation l = linearise(problem, best.point);
+  const Uncertainties u = uncertainties(problem, best.point, l);
+  const auto n = static_cast<Eigen::Index>(problem.samples());
+  Eigen::MatrixXd j = Eigen::MatrixXd::Zero(3 * n, 10);
+  Eigen::VectorXd sd(3 * n);
+  Eigen::VectorXd y(3 * n);
+  for (Eigen::Index c = 0; c < 3; ++c) {
+    const auto channel = static_cast<std::size_t>(c);
+    j.block(c * n, 0, n, 1) = l.by_shape[channel];
+    j.block(c * n, 1 + 3 * c, n, 3) = l.by_coefficient[channel];
+    sd.segment(c * n, n) = problem.weight.cwiseProduct(problem.channels[channel].u);
+    y.segment(c * n, n) = problem.channels[channel].target;
+  }
+  const Eigen::MatrixXd bread = (j.transpose() * j).inverse();
+  const Eigen::MatrixXd v = bread * j.transpose() * sd.array().square().matrix().asDiagonal() * j * bread;
+  const Eigen::VectorXd g = bread * j.transpose() * y;
+  EXPECT_LT((u.covariance_readings - v).norm() / v.norm(), 1e-9);
+  EXPECT_LT((u.covariance - v - 4e-4 * g * g.transpose()).norm() / u.covariance.norm(), 1e-9);
+  EXPECT_NEAR(u.reduced_chi_square, 1.0, 0.2);
+  // A scale that is off moves every k by its full part, and leaves the slope where it is.
+  EXPECT_LT(u.shape[0].u_scale, 1e-6);
+  for (std::size_t c = 0; c < 3; ++c) {
+    for (std::size_t k = 0; k < 3; ++k)
+      EXPECT_NEAR(u.coefficients[c][k].u_scale / best.point.coefficients[c][static_cast<Eigen::Index>(k)], 0.02, 1e-6);
+  }
+  const Eigen::Index r = u.coefficients[0][1].index;
+  const Eigen::Index b = u.coefficients[2][1].index;
+  EXPECT_GT(u.covariance(r, b) / std::sqrt(u.covariance(r, r) * u.covariance(b, b)), 0.95);
+}
+
 TEST(Uncertainty, HasNoneWhereFixed) {
   const Material truth = test::garnet_red_paint_13();  // k_uds of G and B are 0
   const Scan scan = simulate(truth, Sampling::hemisphere, {0.0, 0.0}, 4);

@@ -217,7 +217,8 @@ TEST_P(BadRecipes, AreRefusedByKey) { EXPECT_EQ(complaint(GetParam().toml), "2 r
 const std::vector<BadRecipe> bad_recipes{
     {"UnknownKey", "scans = \"a.csv\"",
      ": /scans: is not a known key, expected name, scan, model, components, terms, forms, anisotropic, loss, weight, "
-     "max_theta_deg, solid_angle_sr, channels, seed, optics, parameters or verify"},
+     "robust, exclude, reflectances, "
+     "max_theta_deg, solid_angle_sr, channels, seed, uncertainty, scale_u, optics, parameters or verify"},
     {"ScanOfWrongType", "scan = 3", ": /scan: is an integer, expected a path or an array of paths"},
     {"NoScan", "scan = []", ": /scan: is empty, expected at least one path"},
     {"EmptyScan", "scan = [\"a.csv\", \"\"]", ": /scan/1: is empty, expected a path"},
@@ -271,9 +272,9 @@ const std::vector<BadRecipe> bad_recipes{
      ": /robust/scale: is 0, expected a number above 0"},
     {"UnknownExclusion", "exclude = {retro = 7.0}",
      ": /exclude/retro: is not a known key, expected retro_deg, saturated or clamped"},
-    {"RetroTooLarge", "exclude = {retro_deg = 181.0}",
-     ": /exclude/retro_deg: is 181, expected a number from 0 to 180"},
-    {"SaturatedOfWrongType", "exclude = {saturated = \"yes\"}", ": /exclude/saturated: is a string, expected true or false"},
+    {"RetroTooLarge", "exclude = {retro_deg = 181.0}", ": /exclude/retro_deg: is 181, expected a number from 0 to 180"},
+    {"SaturatedOfWrongType", "exclude = {saturated = \"yes\"}",
+     ": /exclude/saturated: is a string, expected true or false"},
     {"ReflectancesEmpty", "reflectances = \"\"", ": /reflectances: is empty, expected a path"},
     {"ThetaTooLarge", "max_theta_deg = 91", ": /max_theta_deg: is 91, expected degrees above 0 and up to 90"},
     {"ThetaNan", "max_theta_deg = nan", ": /max_theta_deg: is nan, expected degrees above 0 and up to 90"},

@@ -1,0 +1,60 @@
+#pragma once
+// The Jacobian of a whole problem over some of its parameters, channel by channel: shape parameters are in every
+// channel, all others in one.
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <vector>
+
+#include "model.h"
+
+namespace goniofit {
+
+/// One channel, over the parameters it depends on, and where these stand in the whole.
+struct JacobianBlock {
+  Eigen::MatrixXd jacobian;  ///< readings x own parameters
+  std::vector<Eigen::Index> index;
+};
+
+/// Places of the parameters in the whole; -1 where left out.
+struct ParameterPlaces {
+  std::vector<Eigen::Index> shape;
+  std::vector<std::vector<Eigen::Index>> coefficients;  ///< [channel][coefficient]
+  std::vector<Eigen::Index> optics;                     ///< [channel]; empty where fixed
+  Eigen::Index size = 0;
+};
+
+class JointJacobian {
+ public:
+  /// Requires at least one place.
+  JointJacobian(const Linearisation& l, const ParameterPlaces& places);
+
+  [[nodiscard]] const std::vector<JacobianBlock>& blocks() const noexcept { return blocks_; }
+  [[nodiscard]] Eigen::Index size() const noexcept { return scale_.size(); }
+  /// Fewer readings than parameters, or dependent columns: the bound is on what is left of a column of norm 1 when
+  /// those before it have had their share.
+  [[nodiscard]] bool singular() const;
+  /// Parameters that lie in a null direction of JᵀJ to double precision.
+  [[nodiscard]] std::vector<bool> in_null_space() const;
+  /// B with B Bᵀ = (JᵀJ)⁻¹; not for a singular one.
+  [[nodiscard]] const Eigen::MatrixXd& root() const noexcept { return root_; }
+  /// Its rows of the parameters that a channel depends on.
+  [[nodiscard]] Eigen::MatrixXd own_root(std::size_t channel) const;
+  /// Jᵀ v, v one vector a channel.
+  [[nodiscard]] Eigen::VectorXd transposed_times(const std::vector<Eigen::VectorXd>& v) const;
+  /// (JᵀJ)⁻¹ Jᵀ v.
+  [[nodiscard]] Eigen::VectorXd solve(const std::vector<Eigen::VectorXd>& v) const;
+  /// The leverages J_i (JᵀJ)⁻¹ J_iᵀ of a channel's readings.
+  [[nodiscard]] Eigen::VectorXd leverages(std::size_t channel) const;
+  /// Σ of [diag(e) J B]ᵀ [diag(e) J B] over the channels: B times it times Bᵀ is (JᵀJ)⁻¹ Jᵀ diag(e²) J (JᵀJ)⁻¹. By
+  /// triangles: nothing is lost to the condition of J squared.
+  [[nodiscard]] Eigen::MatrixXd meat(const std::vector<Eigen::VectorXd>& e) const;
+
+ private:
+  std::vector<JacobianBlock> blocks_;
+  Eigen::VectorXd scale_;
+  Eigen::MatrixXd r_;  ///< of J = QR, J's columns scaled to norm 1
+  Eigen::MatrixXd root_;
+};
+
+}  // namespace goniofit

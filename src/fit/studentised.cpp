@@ -89,7 +89,7 @@ double SignedForm::positive(double kappa) const {
     const double w = std::copysign(std::sqrt(std::max(-2.0 * at.value, 0.0)), s);
     if (std::fabs(w) < 1e-4) continue;
     const double v = s * std::sqrt(at.second);
-    return normal_tail(w + std::log(v / w) / w);
+    return v / w > 0.0 ? normal_tail(w + std::log(v / w) / w) : normal_tail(w);
   }
   return 0.5;
 }
@@ -186,11 +186,10 @@ Studentised::Factors Studentised::factors(std::size_t position) const {
   const double v = truth_[column];
   const double mean = mean_[column];
   const double freedom = mean * mean / squares_[column];
-  const bool simple = !(freedom < many) || !(v > 0.0);
-  if (simple) {
-    const double bias = v > 0.0 && mean > 0.0 ? std::sqrt(v / mean) : 1.0;
-    return {bias * coverage_factor(probability_68, freedom), bias * coverage_factor(probability_95, freedom)};
-  }
+  const double bias = v > 0.0 && mean > 0.0 ? std::sqrt(v / mean) : 1.0;
+  const Factors simple{bias * coverage_factor(probability_68, freedom),
+                       bias * coverage_factor(probability_95, freedom)};
+  if (!(freedom < many) || !(v > 0.0)) return simple;
   const std::vector<Reading> readings = of_most_account(column);
   double rest = mean;
   double rest_squares = squares_[column];
@@ -201,7 +200,8 @@ Studentised::Factors Studentised::factors(std::size_t position) const {
   rest = std::max(rest, 1e-9 * mean);
   const double rest_freedom = std::clamp(rest * rest / std::max(rest_squares, 1e-300), 1.0, 1e6);
   const SignedForm signed_form(form(column, readings), rest / v, rest_freedom);
-  return {signed_form.factor(probability_68), signed_form.factor(probability_95)};
+  const Factors exact{signed_form.factor(probability_68), signed_form.factor(probability_95)};
+  return std::isfinite(exact.at_68) && std::isfinite(exact.at_95) ? exact : simple;
 }
 
 }  // namespace goniofit

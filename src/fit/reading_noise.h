@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <vector>
 
 #include "model.h"
 #include "problem.h"
@@ -19,8 +20,10 @@ namespace goniofit {
 /// Whether every channel has uncertainties of its readings.
 [[nodiscard]] bool states_uncertainties(const Problem& problem) noexcept;
 
-/// Variance of the residuals by the noise that the residuals themselves show, relative and additive (noise_model.h).
-[[nodiscard]] Eigen::VectorXd estimated_variance(const Problem& problem, const Linearisation& l, std::size_t channel,
-                                                 const Eigen::VectorXd& residuals);
+/// Variances of the residuals, one vector a channel, by the noise that the residuals themselves show: relative and
+/// additive (noise_model.h), of all channels together where that describes a channel's as well as its own would (BIC),
+/// and without a relative part where that does.
+[[nodiscard]] std::vector<Eigen::VectorXd> estimated_variances(const Problem& problem, const Linearisation& l,
+                                                               const std::vector<Eigen::VectorXd>& residuals);
 
 }  // namespace goniofit

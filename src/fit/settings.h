@@ -30,13 +30,13 @@ enum class RobustKernel : std::uint8_t { none, huber, soft_l1, cauchy, tukey };
 
 /// What standard uncertainties come from: the readings' own, the residuals, or the differences between incidence angles
 /// (see fit/spread.h). Automatic is the readings where every channel states theirs, else the residuals.
-enum class UncertaintySource : std::uint8_t { readings, residuals, angles };
+enum class UncertaintySource : std::uint8_t { readings, residuals, hc3, angles };
 /// "readings", "residuals", "incidence angles".
 [[nodiscard]] std::string_view name_of(UncertaintySource source) noexcept;
 
 /// Sets what "auto", "readings", "residuals" or "angles" asks for; false for another word.
 [[nodiscard]] bool parse_uncertainty(std::string_view word, std::optional<UncertaintySource>& to) noexcept;
-inline constexpr std::string_view uncertainty_words = "auto, readings, residuals or angles";
+inline constexpr std::string_view uncertainty_words = "auto, readings, residuals, hc3 or angles";
 
 /// Readings that a fit leaves out, each rule counted in its report; theta beyond FitSettings::max_theta_deg as well.
 struct ExclusionSettings {

@@ -100,19 +100,24 @@ Spread spread_of_readings(const Problem& problem, const Linearisation& l, const 
       spread_by_readings(j, by_channel(problem, [&](std::size_t c) { return reading_sd(problem, l, c); })), l);
 }
 
-// Of the parameters asked for.
+// Of the parameters asked for; says what it is by.
 Spread spread_of(const Problem& problem, const Linearisation& l, const JointJacobian& j,
-                 const std::vector<Eigen::VectorXd>& residuals, const std::vector<Eigen::Index>& parameters) {
+                 const std::vector<Eigen::VectorXd>& residuals, const std::vector<Eigen::Index>& parameters,
+                 UncertaintySource& source) {
   switch (problem.uncertainty) {
     case UncertaintySource::readings:
       return spread_of_readings(problem, l, j);
     case UncertaintySource::angles:
       return without_reweighting(spread_by_angles(j, residuals, angle_groups(problem)), l);
     case UncertaintySource::residuals:
+    case UncertaintySource::hc3:
       break;
   }
-  const auto variance =
-      by_channel(problem, [&](std::size_t c) { return estimated_variance(problem, l, c, residuals[c]); });
+  const std::vector<Eigen::VectorXd> variance = estimated_variances(problem, l, residuals);
+  if (problem.uncertainty == UncertaintySource::residuals && residuals_are_noise(j, residuals, variance)) {
+    return without_reweighting(spread_by_noise(j, variance), l);
+  }
+  source = UncertaintySource::hc3;
   return without_reweighting(spread_by_residuals(j, residuals, variance, parameters), l);
 }
 
@@ -172,7 +177,7 @@ void add_stated(const Problem& problem, const Linearisation& l, const JointJacob
   std::iota(all.begin(), all.end(), Eigen::Index{0});
   const Spread spread =
       by_readings ? Spread{out.covariance_readings, std::vector<CoverageFactors>(size), std::vector<bool>(size, false)}
-                  : spread_of(problem, l, j, l.residuals, all);
+                  : spread_of(problem, l, j, l.residuals, all, out.source);
   out.by_scale = change_by_scale(problem, l, j);
   out.covariance = spread.covariance + problem.scale_u * problem.scale_u * out.by_scale * out.by_scale.transpose();
   for_each_place(out, places, [&](ParameterUncertainty& p, Eigen::Index i) {
@@ -203,7 +208,8 @@ void release(const Problem& problem, const Linearisation& l, const ParameterPlac
   for_each_place(out, places, [&held](const ParameterUncertainty& p, Eigen::Index i) {
     if (is_on_bound(p)) held.push_back(i);
   });
-  const Spread spread = spread_of(problem, l, j, residuals, held);
+  UncertaintySource source = out.source;
+  const Spread spread = spread_of(problem, l, j, residuals, held, source);
   const Eigen::VectorXd by_scale = change_by_scale(problem, l, j);
   for_each_place(out, places, [&](ParameterUncertainty& p, Eigen::Index i) {
     if (!is_on_bound(p) || spread.single[static_cast<std::size_t>(i)]) return;
@@ -232,6 +238,8 @@ std::string_view name_of(UncertaintySource source) noexcept {
   switch (source) {
     case UncertaintySource::readings:
       return "readings";
+    case UncertaintySource::hc3:
+      return "hc3";
     case UncertaintySource::angles:
       return "incidence angles";
     case UncertaintySource::residuals:
@@ -247,6 +255,8 @@ bool parse_uncertainty(std::string_view word, std::optional<UncertaintySource>& 
     to = UncertaintySource::readings;
   } else if (word == "residuals") {
     to = UncertaintySource::residuals;
+  } else if (word == "hc3") {
+    to = UncertaintySource::hc3;
   } else if (word == "angles") {
     to = UncertaintySource::angles;
   } else {

@@ -28,10 +28,12 @@ std::string source_sentence(const FitResult& result) {
     case UncertaintySource::angles:
       return "standard uncertainties (k = 1) are from the differences between incidence angles (CR3), intervals from a "
              "wild bootstrap over them";
+    case UncertaintySource::hc3:
+      return "standard uncertainties (k = 1) are from the residuals (HC3)";
     case UncertaintySource::residuals:
       break;
   }
-  return "standard uncertainties (k = 1) are from the residuals (HC3)";
+  return "standard uncertainties (k = 1) are from the noise that the residuals show";
 }
 
 std::string reach_sentence(const FitResult& result) {

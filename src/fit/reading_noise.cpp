@@ -2,65 +2,118 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <vector>
-
-#include "fit/noise_model.h"
-#include "fit/residual_tests.h"
 
 namespace goniofit {
 
 namespace {
 
-// -2 ln of the likelihood of normal residuals.
-double misfit(const Noise& noise, const Eigen::VectorXd& f, const Eigen::VectorXd& residual) {
-  const Eigen::ArrayXd variance =
-      noise.relative * noise.relative * f.array().square() + noise.additive * noise.additive;
-  return (variance.log() + residual.array().square() / variance).sum();
-}
+// A variance's share in what the parameters are uncertain by: below this part of the mean, weighted by leverages, it
+// has none to speak of, and whether a residual there is as small as it should be does not matter.
+constexpr double negligible = 1e-4;
 
-// Readings of a channel, or of all.
+// Squares of residuals to be explained by additive² * first + relative² * second, with the readings' leverages.
 struct Sample {
-  Eigen::VectorXd f, residual;
+  Eigen::ArrayXd first, second, square, leverage;
+
+  void append(const Sample& other) {
+    const auto join = [](Eigen::ArrayXd& to, const Eigen::ArrayXd& from) {
+      const Eigen::Index before = to.size();
+      to.conservativeResize(before + from.size());
+      to.tail(from.size()) = from;
+    };
+    join(first, other.first);
+    join(second, other.second);
+    join(square, other.square);
+    join(leverage, other.leverage);
+  }
+  [[nodiscard]] Eigen::ArrayXd variance(const Noise& n) const {
+    return n.additive * n.additive * first + n.relative * n.relative * second;
+  }
 };
 
-Noise additive_noise(const Sample& s) {
-  std::vector<double> sizes(s.residual.data(), s.residual.data() + s.residual.size());
-  for (double& size : sizes) size = std::fabs(size);
-  constexpr double sigma_of_median = 1.4826022185056018;
-  return {0.0, sizes.empty() ? 0.0 : sigma_of_median * median_of(sizes)};
+double negligible_variance(const Eigen::ArrayXd& variance, const Eigen::ArrayXd& leverage) {
+  const double sum = leverage.sum();
+  return sum > 0.0 ? negligible * (leverage * variance).sum() / sum : 0.0;
 }
 
-// The noise that explains the residuals best by BIC: that of all channels together, which costs this one nothing;
-// additive noise alone; both parts. Dark readings let the few bright ones of their channel have much relative noise
-// that there need not be.
-Noise simplest_noise(const Sample& own, const std::optional<Noise>& common) {
-  const double price = std::log(static_cast<double>(own.f.size()));
-  Noise best = estimate_noise(own.f, own.residual);
-  double least = misfit(best, own.f, own.residual) + 2.0 * price;
-  const auto consider = [&](const Noise& noise, double parameters) {
-    if (!(noise.additive > 0.0)) return;
-    const double value = misfit(noise, own.f, own.residual) + parameters * price;
-    if (!(value <= least)) return;
-    least = value;
-    best = noise;
-  };
-  consider(additive_noise(own), 1.0);
-  if (common) consider(*common, 0.0);
-  return best;
-}
-
-Sample joined(const std::vector<Sample>& samples) {
-  Eigen::Index size = 0;
-  for (const Sample& s : samples) size += s.f.size();
-  Sample all{Eigen::VectorXd(size), Eigen::VectorXd(size)};
-  size = 0;
-  for (const Sample& s : samples) {
-    all.f.segment(size, s.f.size()) = s.f;
-    all.residual.segment(size, s.f.size()) = s.residual;
-    size += s.f.size();
+// Least squares of the squares, each by its leverage over its variance squared: the readings that decide the parameters
+// decide the noise, so that what misfit the loss leaves in dark readings is no noise of bright ones.
+Noise noise_of(const Sample& s) {
+  double a2 = 0.0;
+  double r2 = 0.0;
+  Eigen::ArrayXd variance = s.square;
+  for (int round = 0; round < 30; ++round) {
+    const Eigen::ArrayXd error = variance + negligible_variance(variance, s.leverage);
+    const Eigen::ArrayXd g = (error > 0.0).select(s.leverage / error.square(), 0.0);
+    const double ff = (g * s.first.square()).sum();
+    const double fs = (g * s.first * s.second).sum();
+    const double ss = (g * s.second.square()).sum();
+    const double fy = (g * s.first * s.square).sum();
+    const double sy = (g * s.second * s.square).sum();
+    const double determinant = ff * ss - fs * fs;
+    const bool both = determinant > 1e-12 * ff * ss;
+    a2 = both ? (fy * ss - sy * fs) / determinant : 0.0;
+    r2 = both ? (sy * ff - fy * fs) / determinant : 0.0;
+    if (!(a2 > 0.0) || !(r2 > 0.0)) {
+      const bool relative = r2 > a2 || ff <= 0.0;
+      a2 = relative || ff <= 0.0 ? 0.0 : fy / ff;
+      r2 = relative && ss > 0.0 ? sy / ss : 0.0;
+    }
+    variance = a2 * s.first + r2 * s.second;
   }
-  return all;
+  return {std::sqrt(r2), std::sqrt(a2)};
+}
+
+Sample sample_of(const Eigen::VectorXd& by_value, const Eigen::VectorXd& value, const Eigen::VectorXd& residual,
+                 const Eigen::VectorXd& leverage) {
+  Sample s;
+  s.first = by_value.array().square();
+  const Eigen::ArrayXd off = (by_value.array() != 0.0).select(residual.array() / by_value.array(), 0.0);
+  s.second = s.first * (value.array() - off).square();
+  s.leverage = (s.first > 0.0).select(leverage.array(), 0.0);
+  return s;
+}
+
+// What the residuals' squares are to be divided by so that their mean is the noise's variance, by the noise supposed: a
+// fit takes up its readings' noise,
+//
+//   E r_i² = v_i (1 - 2 h_i) + J_i V J_iᵀ,   V the parameters' covariance.
+//
+// Where little is left, as of a reading that alone decides a parameter, the residual tells no noise.
+void set_squares(const JointJacobian& j, const std::vector<Eigen::VectorXd>& residuals,
+                 const std::vector<Eigen::VectorXd>& variance, std::vector<Sample>& samples) {
+  constexpr double least_left = 0.1;
+  std::vector<Eigen::VectorXd> sd;
+  for (const Eigen::VectorXd& v : variance) sd.emplace_back(v.cwiseSqrt());
+  const Eigen::MatrixXd covariance = j.root() * j.meat(sd) * j.root().transpose();
+  for (std::size_t c = 0; c < samples.size(); ++c) {
+    const JacobianBlock& b = j.blocks()[c];
+    const Eigen::MatrixXd own = covariance(b.index, b.index);
+    const Eigen::ArrayXd taken = (b.jacobian * own).cwiseProduct(b.jacobian).rowwise().sum();
+    const Eigen::ArrayXd v = variance[c];
+    Sample& s = samples[c];
+    const Eigen::ArrayXd left = (v > 0.0).select(1.0 - 2.0 * s.leverage + taken / v, 1.0);
+    s.square = residuals[c].array().square() / left.max(least_left);
+    s.leverage = (left >= least_left).select(s.leverage, 0.0);
+  }
+}
+
+struct Agreement {
+  double mean = 1.0, sd = 0.0;  ///< of the squares over their variances, by what both matter
+
+  [[nodiscard]] bool holds(double deviations, double tolerance) const {
+    return std::fabs(mean - 1.0) <= deviations * sd + tolerance;
+  }
+};
+
+Agreement agreement(const Sample& s, const Noise& noise) {
+  const Eigen::ArrayXd variance = s.variance(noise);
+  const Eigen::ArrayXd floored = variance + negligible_variance(variance, s.leverage);
+  const Eigen::ArrayXd weight = (floored > 0.0).select(s.leverage / floored, 0.0);
+  const double expected = (weight * variance).sum();
+  if (!(expected > 0.0)) return {};
+  return {(weight * s.square).sum() / expected, std::sqrt(2.0 * (weight * variance).square().sum()) / expected};
 }
 
 }  // namespace
@@ -91,30 +144,29 @@ bool states_uncertainties(const Problem& problem) noexcept {
                      [](const ProblemChannel& c) { return c.u.size() > 0; });
 }
 
-std::vector<Eigen::VectorXd> estimated_variances(const Problem& problem, const Linearisation& l,
-                                                 const std::vector<Eigen::VectorXd>& residuals) {
-  constexpr Eigen::Index enough = 1500;  // of many readings a part tells the noise as well
-  std::vector<Eigen::VectorXd> by_reading;
-  std::vector<Eigen::VectorXd> model;
+ResidualNoise residual_noise(const Problem& problem, const Linearisation& l,
+                             const std::vector<Eigen::VectorXd>& residuals, const JointJacobian& j) {
   std::vector<Sample> samples;
+  ResidualNoise out;
   for (std::size_t c = 0; c < residuals.size(); ++c) {
-    const Eigen::VectorXd& by = by_reading.emplace_back(residual_by_value(problem, l, c));
-    const Eigen::VectorXd& value = problem.channels[c].value;
-    const Eigen::VectorXd off = (by.array() != 0.0).select(residuals[c].cwiseQuotient(by), 0.0);
-    model.emplace_back(value - off);
-    std::vector<Eigen::Index> kept;
-    for (Eigen::Index i = 0; i < by.size(); i += std::max<Eigen::Index>(1, by.size() / enough)) {
-      if (by[i] != 0.0) kept.push_back(i);
-    }
-    samples.push_back({model.back()(kept), off(kept)});
+    samples.push_back(
+        sample_of(residual_by_value(problem, l, c), problem.channels[c].value, residuals[c], j.leverages(c)));
+    out.variance.emplace_back(residuals[c].cwiseAbs2());
   }
-  std::optional<Noise> common;
-  if (samples.size() > 1) common = simplest_noise(joined(samples), std::nullopt);
-  std::vector<Eigen::VectorXd> out;
-  for (std::size_t c = 0; c < residuals.size(); ++c) {
-    const Noise noise = simplest_noise(samples[c], common);
-    out.emplace_back(by_reading[c].array().square() *
-                     (noise.relative * noise.relative * model[c].array().square() + noise.additive * noise.additive));
+  constexpr int rounds = 3;  // the first supposes the residuals' own squares
+  for (int round = 0; round < rounds; ++round) {
+    set_squares(j, residuals, out.variance, samples);
+    Sample all;
+    for (const Sample& own : samples) all.append(own);
+    const Noise common = noise_of(all);
+    out.holds = true;
+    for (std::size_t c = 0; c < samples.size(); ++c) {
+      const Noise noise = agreement(samples[c], common).holds(2.5, 0.05) ? common : noise_of(samples[c]);
+      out.variance[c] = samples[c].variance(noise);
+      out.holds = out.holds && agreement(samples[c], noise).holds(4.0, 0.1);
+    }
+    const double leverage2 = all.leverage.square().sum();
+    out.freedom = leverage2 > 0.0 ? all.leverage.sum() * all.leverage.sum() / leverage2 : 1.0;
   }
   return out;
 }

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "joint_jacobian.h"
 #include "model.h"
 #include "problem.h"
 
@@ -20,10 +21,17 @@ namespace goniofit {
 /// Whether every channel has uncertainties of its readings.
 [[nodiscard]] bool states_uncertainties(const Problem& problem) noexcept;
 
-/// Variances of the residuals, one vector a channel, by the noise that the residuals themselves show: relative and
-/// additive (noise_model.h), of all channels together where that describes a channel's as well as its own would (BIC),
-/// and without a relative part where that does.
-[[nodiscard]] std::vector<Eigen::VectorXd> estimated_variances(const Problem& problem, const Linearisation& l,
-                                                               const std::vector<Eigen::VectorXd>& residuals);
+/// The noise that residuals show, as relative and additive parts of the readings: of all channels together where a
+/// channel does not contradict that, else its own. Readings count by their leverages: hundreds of them tell the noise
+/// of the few that decide a lobe.
+struct ResidualNoise {
+  std::vector<Eigen::VectorXd> variance;  ///< of the residuals, one vector a channel
+  double freedom = 1.0;                   ///< (sum of the leverages)² over the sum of their squares
+  /// Whether residuals are no other than such noise: the mean of their squares over what that noise leaves of it,
+  /// weighted by leverage, is 1 within four standard deviations and a tenth, in every channel.
+  bool holds = true;
+};
+[[nodiscard]] ResidualNoise residual_noise(const Problem& problem, const Linearisation& l,
+                                           const std::vector<Eigen::VectorXd>& residuals, const JointJacobian& j);
 
 }  // namespace goniofit

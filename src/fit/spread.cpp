@@ -51,40 +51,11 @@ Spread spread_by_residuals(const JointJacobian& j, const std::vector<Eigen::Vect
   return out;
 }
 
-bool residuals_are_noise(const JointJacobian& j, const std::vector<Eigen::VectorXd>& residuals,
-                         const std::vector<Eigen::VectorXd>& variance) {
-  double count = 0.0;
-  double plain = 0.0;
-  double weights = 0.0;
-  double weights2 = 0.0;
-  double weighted = 0.0;
-  for (std::size_t c = 0; c < residuals.size(); ++c) {
-    const Eigen::VectorXd leverage = j.leverages(c);
-    for (Eigen::Index i = 0; i < leverage.size(); ++i) {
-      if (!(variance[c][i] > 0.0) || leverage[i] >= full_leverage) continue;
-      const double e2 = residuals[c][i] * residuals[c][i] / ((1.0 - leverage[i]) * variance[c][i]);
-      count += 1.0;
-      plain += e2;
-      weights += leverage[i];
-      weights2 += leverage[i] * leverage[i];
-      weighted += leverage[i] * e2;
-    }
-  }
-  constexpr double deviations = 4.0, tolerance = 0.1;
-  const auto is_one = [](double mean, double sd) { return std::fabs(mean - 1.0) <= deviations * sd + tolerance; };
-  return count > 0.0 && weights > 0.0 && is_one(plain / count, std::sqrt(2.0 / count)) &&
-         is_one(weighted / weights, std::sqrt(2.0 * weights2) / weights);
-}
-
-Spread spread_by_noise(const JointJacobian& j, const std::vector<Eigen::VectorXd>& variance) {
+Spread spread_by_noise(const JointJacobian& j, const std::vector<Eigen::VectorXd>& variance, double freedom) {
   std::vector<Eigen::VectorXd> sd;
-  double count = 0.0;
-  for (const Eigen::VectorXd& v : variance) {
-    sd.emplace_back(v.cwiseSqrt());
-    count += static_cast<double>((v.array() > 0.0).count());
-  }
+  for (const Eigen::VectorXd& v : variance) sd.emplace_back(v.cwiseSqrt());
   Spread out = spread_by_readings(j, sd);
-  const boost::math::students_t student(std::max(1.0, (count - static_cast<double>(j.size())) / 3.0));
+  const boost::math::students_t student(std::max(1.0, freedom));
   const CoverageFactors k{boost::math::quantile(student, 0.841344746068543), boost::math::quantile(student, 0.975)};
   out.k.assign(out.k.size(), k);
   return out;

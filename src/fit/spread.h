@@ -7,12 +7,8 @@
 //
 // readings   var ε from the readings' own standard uncertainties (GUM, JCGM 100). Intervals are the normal
 //            distribution's.
-// residuals  var ε from the noise that the residuals show, additive and relative (noise_model.h): hundreds of residuals
-//            tell the noise of the few bright readings that decide a lobe, which these themselves could not. Only
-//            where residuals are no other than such noise, the more so the more a reading has to say: the mean of
-//            e_i² = r_i² / ((1 - h_i) var ε_i) and its mean weighted by the leverages h_i are 1 within four standard
-//            deviations (and a tenth). Else hc3. Intervals are Student's, of a third of the residuals' degrees of
-//            freedom, since medians tell the noise.
+// residuals  var ε from the noise that the residuals show (reading_noise.h), where they are no other than such noise;
+//            else hc3. Intervals are Student's.
 // hc3        HC3 (MacKinnon & White 1985): r_i² / (1 - h_i)² for var ε_i, h_i the leverage. V is then itself a random
 //            sum, which a few bright readings may rule, and which they bias: intervals are those of the estimates over
 //            it where the noise is relative and additive in the measure that the residuals show (studentised.h; the
@@ -51,9 +47,8 @@ struct Spread {
 [[nodiscard]] Spread spread_by_residuals(const JointJacobian& j, const std::vector<Eigen::VectorXd>& residuals,
                                          const std::vector<Eigen::VectorXd>& variance,
                                          const std::vector<Eigen::Index>& parameters);
-[[nodiscard]] bool residuals_are_noise(const JointJacobian& j, const std::vector<Eigen::VectorXd>& residuals,
-                                       const std::vector<Eigen::VectorXd>& variance);
-[[nodiscard]] Spread spread_by_noise(const JointJacobian& j, const std::vector<Eigen::VectorXd>& variance);
+[[nodiscard]] Spread spread_by_noise(const JointJacobian& j, const std::vector<Eigen::VectorXd>& variance,
+                                     double freedom);
 /// At least two groups.
 [[nodiscard]] Spread spread_by_angles(const JointJacobian& j, const std::vector<Eigen::VectorXd>& residuals,
                                       const AngleGroups& groups);

@@ -113,12 +113,12 @@ Spread spread_of(const Problem& problem, const Linearisation& l, const JointJaco
     case UncertaintySource::hc3:
       break;
   }
-  const std::vector<Eigen::VectorXd> variance = estimated_variances(problem, l, residuals);
-  if (problem.uncertainty == UncertaintySource::residuals && residuals_are_noise(j, residuals, variance)) {
-    return without_reweighting(spread_by_noise(j, variance), l);
+  const ResidualNoise noise = residual_noise(problem, l, residuals, j);
+  if (problem.uncertainty == UncertaintySource::residuals && noise.holds) {
+    return without_reweighting(spread_by_noise(j, noise.variance, noise.freedom), l);
   }
   source = UncertaintySource::hc3;
-  return without_reweighting(spread_by_residuals(j, residuals, variance, parameters), l);
+  return without_reweighting(spread_by_residuals(j, residuals, noise.variance, parameters), l);
 }
 
 Eigen::VectorXd change_by_scale(const Problem& problem, const Linearisation& l, const JointJacobian& j) {

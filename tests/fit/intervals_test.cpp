@@ -127,7 +127,9 @@ TEST(Intervals, OfOneOnItsBoundIsOneSided) {
       ASSERT_TRUE(p.interval_95 && p.interval_68) << p.name;
       EXPECT_EQ(p.interval_95->lower, 0.0);
       EXPECT_GT(p.interval_95->upper, p.interval_68->upper);
-      if (p.name == "k_uds") EXPECT_LT(p.interval_95->upper, 0.05);
+      if (p.name == "k_uds") {
+        EXPECT_LT(p.interval_95->upper, 0.05);
+      }
       EXPECT_FALSE(p.coverage_factor);
     }
   }
@@ -170,7 +172,9 @@ TEST(Intervals, FromAnglesHoldWhereReadingsOfAnAngleShareErrors) {
     EXPECT_GE(honest.holds, boost::math::quantile(boost::math::binomial(trials, 0.90), 1e-4)) << name;
     const Coverage blind = coverage_of(name, residuals, value);
     EXPECT_LT(blind.holds, boost::math::quantile(boost::math::binomial(trials, 0.90), 1e-4)) << name;
-    if (name == std::string("k_udf")) EXPECT_LT(honest.plain, honest.holds);
+    if (name == std::string("k_udf")) {
+      EXPECT_LT(honest.plain, honest.holds);
+    }
   }
 }
 

@@ -135,6 +135,13 @@ void Assembly::add_published_loss() {
       squares += all[c][at] * all[c][at];
       out_.loss += problem_.pairs.cos_i[i] * all[c][at] * all[c][at];
     }
+    for (std::size_t i = problem_.readings(); i < problem_.samples(); ++i) {
+      const auto at = static_cast<Eigen::Index>(i);
+      if (used.size() > 0 && used[at] == 0.0) continue;
+      const double value = problem_.channels[c].value[at];
+      out_.fitted_reflectances.push_back(
+          {problem_.theta_i_deg[i], problem_.channels[c].name, pi * value, pi * (value + all[c][at])});
+    }
     values += own;
     out_.channel_rms.push_back(std::sqrt(squares / own));
   }

@@ -76,13 +76,21 @@ struct HemisphericalReflectance {
   std::vector<double> by_channel;
 };
 
+/// A reflectance that was fitted beside the scan.
+struct FittedReflectance {
+  double theta_i_deg;
+  std::string channel;
+  double measured, fitted;
+};
+
 struct FitResult {
   Material material;  ///< with its FitSummary
   std::vector<FittedParameter> parameters;
   std::vector<HemisphericalReflectance> reflectance;  ///< filled by add_reflectance
   Weight weight = Weight::cosine;
-  std::size_t samples = 0;       ///< directions used (times channels = residuals)
-  std::size_t reflectances = 0;  ///< directional-hemispherical ones fitted beside them
+  std::size_t samples = 0;                             ///< directions used (times channels = residuals)
+  std::size_t reflectances = 0;                        ///< directional-hemispherical ones fitted beside them
+  std::vector<FittedReflectance> fitted_reflectances;  ///< their values, one a channel
   Exclusions left_out;
   double loss = 0.0, rms = 0.0;  ///< whatever was made least, sum of cos(theta_i) |difference|² over the values used
   Objective objective;

@@ -261,6 +261,20 @@ std::string reflectance_block(const FitResult& result, bool color) {
   return out;
 }
 
+std::string fitted_reflectances_block(const FitResult& result, bool color) {
+  if (result.fitted_reflectances.empty()) return {};
+  TextTable table({{"θᵢ / °", Align::right},
+                   {"channel", Align::left},
+                   {"measured", Align::right},
+                   {"fitted", Align::right},
+                   {"difference", Align::right}});
+  for (const FittedReflectance& r : result.fitted_reflectances) {
+    table.add_row({number_text(r.theta_i_deg), printable(r.channel), fmt::format("{:.4f}", r.measured),
+                   fmt::format("{:.4f}", r.fitted), fmt::format("{:+.4f}", r.fitted - r.measured)});
+  }
+  return heading("Reflectances fitted beside the scan", color) + table.str(indent, color);
+}
+
 // How the effects were chosen.
 std::string selection_block(const Selection& selection, bool color) {
   TextTable table({{"", Align::left},
@@ -328,6 +342,7 @@ std::string fit_report(const FitResult& result, const Scan& scan, const ReportSt
   if (const std::string determined = identifiability_block(result, style.color); !determined.empty()) {
     out += heading("What the scan determines", style.color) + determined;
   }
+  out += fitted_reflectances_block(result, style.color);
   if (style.show_reflectance) out += reflectance_block(result, style.color);
   if (result.selection) out += selection_block(*result.selection, style.color);
   out += list_block("Notes", result.notes, Tint::faint, style.color);

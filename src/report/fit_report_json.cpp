@@ -152,7 +152,13 @@ std::string fit_report_json(const FitResult& result, const Scan& scan) {
        result.objective.robust == RobustKernel::none ? Json(nullptr) : finite_or_null(result.objective.robust_scale)},
       {"value", finite_or_null(result.objective.value)}};
   out["samples"] = result.samples;
-  out["reflectance_readings"] = result.reflectances;
+  out["reflectance_readings"] = Json::array();
+  for (const FittedReflectance& r : result.fitted_reflectances) {
+    out["reflectance_readings"].push_back({{"theta_i_deg", r.theta_i_deg},
+                                           {"channel", r.channel},
+                                           {"measured", finite_or_null(r.measured)},
+                                           {"fitted", finite_or_null(r.fitted)}});
+  }
   out["left_out"] = {{"theta_90", result.left_out.at_90},
                      {"max_theta", result.left_out.beyond_max_theta},
                      {"retro_cone", result.left_out.retro_cone},

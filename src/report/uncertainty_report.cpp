@@ -77,7 +77,7 @@ std::string scale_sentence(const FitResult& result) {
 std::string correlation_sentence(const Correlation& correlation) {
   const std::vector<CorrelatedPair> pairs = strong_pairs(correlation, strong);
   if (pairs.empty()) return {};
-  std::string text = "all but determined together only (correlation): ";
+  std::string text = "strongly correlated: ";
   for (std::size_t i = 0; i < std::min(pairs.size(), most_pairs); ++i) {
     text += fmt::format("{}{} and {} ({:+.2f})", i > 0 ? ", " : "", correlation.names[pairs[i].first],
                         correlation.names[pairs[i].second], pairs[i].correlation);

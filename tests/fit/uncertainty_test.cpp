@@ -1,4 +1,5 @@
 #include "fit/uncertainty.h"
+#include "fit/fit.h"
 
 #include <gtest/gtest.h>
 
@@ -23,7 +24,9 @@ FitSettings settings_for(const Material& truth) {
 TEST(Uncertainty, IsTheSandwichOfTheWholeJacobian) {
   const Material truth = test::laser_paper_73();
   const Scan scan = simulate(truth, Sampling::incidence_plane, {0.03, 0.0}, 4);
-  const Problem problem(scan, settings_for(truth));
+  FitSettings settings = settings_for(truth);
+  settings.uncertainty = UncertaintySource::hc3;
+  const Problem problem(scan, settings);
   const Polished best = polish(problem, search(problem).minima.front());
   const Linearisation l = linearise(problem, best.point);
   const Uncertainties u = uncertainties(problem, best.point, l);
@@ -51,6 +54,26 @@ TEST(Uncertainty, IsTheSandwichOfTheWholeJacobian) {
       ASSERT_EQ(u.coefficients[c][k].state, ParameterState::free);
       EXPECT_NEAR(u.coefficients[c][k].u / std::sqrt(v(at, at)), 1.0, 1e-9);
       EXPECT_NEAR(u.coefficients[c][k].u_classical / std::sqrt(s2 * bread(at, at)), 1.0, 1e-9);
+    }
+  }
+}
+
+// Noise that the residuals show is that of the instrument, whose u columns the first fit does not read.
+TEST(Uncertainty, OfResidualsIsThatOfTheReadings) {
+  for (const Sampling sampling : {Sampling::incidence_plane, Sampling::hemisphere}) {
+    for (const Noise noise : {Noise{0.02, 1e-5}, Noise{0.0, 0.002}, Noise{0.02, 0.002}}) {
+      const Material truth = test::laser_paper_73();
+      const Scan scan = simulate(truth, sampling, noise, 4, true);
+      FitSettings settings = settings_for(truth);
+      const FitResult by_readings = fit(scan, settings);
+      settings.uncertainty = UncertaintySource::residuals;
+      const FitResult by_residuals = fit(scan, settings);
+      EXPECT_EQ(by_residuals.uncertainty_from, UncertaintySource::residuals);
+      for (std::size_t i = 0; i < by_readings.parameters.size(); ++i) {
+        const FittedParameter& p = by_readings.parameters[i];
+        if (!p.u) continue;
+        EXPECT_NEAR(*by_residuals.parameters[i].u / *p.u, 1.0, 0.5) << p.channel << p.name << noise.additive;
+      }
     }
   }
 }

@@ -20,6 +20,7 @@ namespace {
 // open are those of the material.
 Candidate candidate_of(const Scan& scan, const FitSettings& settings, const ComparedFit& row) {
   FitSettings own = settings_for_model(row.model, settings);
+  own.reflectances.reset();  // criteria are of the scan's readings
   if (own.model == surface_model) {
     own.components = row.fit.material.components;
     if (own.terms.distribution != row.fit.material.terms.distribution) own.parameters.erase("tail");

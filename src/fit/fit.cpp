@@ -243,7 +243,9 @@ FitResult fit(const Scan& scan, const FitSettings& settings) {
   FitSettings own = settings;
   std::optional<Selection> selection;
   if (settings.model == surface_model && !settings.components) {
-    selection = select_components(scan, settings);
+    FitSettings of_scan = settings;
+    of_scan.reflectances.reset();  // what predicts readings left out is judged by the readings alone
+    selection = select_components(scan, of_scan);
     own.components = selection->chosen();
   }
   Fitted fitted = fit_as_asked(scan, own);

@@ -64,6 +64,29 @@ TEST_F(Pipeline, SimulateFitEvalExport) {
   EXPECT_EQ(lines(run_here({"export", "f.json", "m.json", "--format", "csv"}).out).size(), 7U);
 }
 
+TEST_F(Pipeline, ReflectancesLossesAndExclusionsReachTheReport) {
+  must({"simulate", "m.json", "--sampling", "incidence-plane", "--noise", "0.02,0.001", "--seed", "7",
+        "--with-uncertainty", "-o", "s.csv"});
+  add("dhr.csv", "theta_i,r,u_R\n8,0.12,0.002\n60,0.16,0.002\n");
+  const Outcome outcome = run_here({"fit", "s.csv", "--components", "dd,uds,fs", "--loss", "log1p", "--robust", "huber",
+                                    "--weight", "cosine-solid-angle", "--exclude-retro", "7", "--reflectances",
+                                    "dhr.csv", "--scale-u", "0.02", "--json"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const auto json = nlohmann::json::parse(outcome.out);
+  EXPECT_EQ(json.at("objective").at("loss"), "log1p");
+  EXPECT_EQ(json.at("objective").at("robust"), "huber");
+  EXPECT_EQ(json.at("objective").at("weight"), "cosine-solid-angle");
+  EXPECT_GT(json.at("left_out").at("retro_cone"), 0);
+  ASSERT_EQ(json.at("reflectance_readings").size(), 2U);
+  EXPECT_EQ(json.at("reflectance_readings").at(0).at("channel"), "R");
+  EXPECT_EQ(json.at("uncertainty").at("from"), "readings");
+  EXPECT_EQ(json.at("uncertainty").at("scale_u"), 0.02);
+  add("dhr.csv", "theta_i,R\n8,12\n");
+  const Outcome bad = run_here({"fit", "s.csv", "--reflectances", "dhr.csv"});
+  EXPECT_EQ(bad.status, 2);
+  EXPECT_NE(bad.err.find("dhr.csv:2: column R: \"12\" is out of range"), std::string::npos) << bad.err;
+}
+
 TEST_F(Pipeline, TheSameSeedGivesTheSameBytes) {
   const auto simulate = [this](const std::string& seed) {
     return run_here({"simulate", "m.json", "--sampling", "incidence-plane", "--noise", "0.02,0.001", "--seed", seed})

@@ -116,6 +116,18 @@ TEST(Reflectances, TellWhatTheScanLeavesOpen) {
   EXPECT_NEAR(*together.material.channels[1].coefficient(Coefficient::k_uds), 0.5, 5.0 * u_of(together));
 }
 
+TEST(Reflectances, GoWithEffectsThatAreChosen) {
+  const Material truth = test::ground_glass_41();
+  const Scan scan = simulate(truth, Sampling::incidence_plane, {0.02, 0.001}, 1);
+  FitSettings s;
+  s.reflectances = readings_of(truth, {8.0, 60.0}, 0.005);
+  const FitResult r = fit(scan, s);
+  EXPECT_TRUE(r.converged);
+  EXPECT_TRUE(r.components_were_auto);
+  EXPECT_EQ(r.reflectances, 2U);
+  EXPECT_TRUE(r.material.components.has(Effect::dd));
+}
+
 TEST(Reflectances, OfOtherChannelsAreAnError) {
   const Material truth = test::ground_glass_41();
   const Scan scan = simulate(truth, Sampling::incidence_plane, {0.02, 0.0}, 1);

@@ -43,7 +43,8 @@ TEST(SolidAngles, AreThoseOfTheNearestDirections) {
     counted[nearest] += 2.0 * pi / static_cast<double>(all.size());
   }
   EXPECT_NEAR(sum(parts), 2.0 * pi, 1e-12);
-  for (std::size_t i = 0; i < parts.size(); ++i) EXPECT_NEAR(parts[i] / counted[i], 1.0, 0.04) << i << ", counted from 90601";
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    EXPECT_NEAR(parts[i] / counted[i], 1.0, 0.04) << i << ", counted from 90601";
 }
 
 TEST(SolidAngles, OfOneDirectionAreAll) {

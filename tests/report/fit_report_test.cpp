@@ -343,7 +343,10 @@ TEST(FitReportJson, HoldsTheSameNumbersUnrounded) {
   EXPECT_EQ(sigma.at("state"), "undetermined");
   EXPECT_EQ(json["parameters"][3].at("state"), "at upper bound");
   EXPECT_EQ(json["parameters"][4].at("state"), "fixed");
-  EXPECT_EQ(json.at("left_out"), (nlohmann::json{{"theta_90", 12}, {"max_theta", 8}, {"retro_cone", 0}, {"saturated_values", 0}, {"clamped_values", 0}}));
+  EXPECT_EQ(
+      json.at("left_out"),
+      (nlohmann::json{
+          {"theta_90", 12}, {"max_theta", 8}, {"retro_cone", 0}, {"saturated_values", 0}, {"clamped_values", 0}}));
   EXPECT_EQ(json.at("reflectance").at(1).at("by_channel").size(), 31U);
   EXPECT_EQ(json.at("channels").at(30).at("rms"), 0.0042);
   EXPECT_EQ(json.at("warnings").size(), 1U);

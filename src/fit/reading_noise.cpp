@@ -44,13 +44,22 @@ Noise noise_of(const Sample& s) {
   double r2 = 0.0;
   Eigen::ArrayXd variance = s.square;
   for (int round = 0; round < 30; ++round) {
-    const Eigen::ArrayXd error = variance + negligible_variance(variance, s.leverage);
-    const Eigen::ArrayXd g = (error > 0.0).select(s.leverage / error.square(), 0.0);
-    const double ff = (g * s.first.square()).sum();
-    const double fs = (g * s.first * s.second).sum();
-    const double ss = (g * s.second.square()).sum();
-    const double fy = (g * s.first * s.square).sum();
-    const double sy = (g * s.second * s.square).sum();
+    const double before_a2 = a2;
+    const double before_r2 = r2;
+    const double floor = negligible_variance(variance, s.leverage);
+    double ff = 0.0, fs = 0.0, ss = 0.0, fy = 0.0, sy = 0.0;
+    for (Eigen::Index i = 0; i < variance.size(); ++i) {
+      const double error = variance[i] + floor;
+      if (!(error > 0.0)) continue;
+      const double g = s.leverage[i] / (error * error);
+      const double gf = g * s.first[i];
+      const double gs = g * s.second[i];
+      ff += gf * s.first[i];
+      fs += gf * s.second[i];
+      ss += gs * s.second[i];
+      fy += gf * s.square[i];
+      sy += gs * s.square[i];
+    }
     const double determinant = ff * ss - fs * fs;
     const bool both = determinant > 1e-12 * ff * ss;
     a2 = both ? (fy * ss - sy * fs) / determinant : 0.0;
@@ -61,6 +70,8 @@ Noise noise_of(const Sample& s) {
       r2 = relative && ss > 0.0 ? sy / ss : 0.0;
     }
     variance = a2 * s.first + r2 * s.second;
+    constexpr double settled = 1e-3;  // far below what so many readings leave open
+    if (std::fabs(a2 - before_a2) <= settled * a2 && std::fabs(r2 - before_r2) <= settled * r2) break;
   }
   return {std::sqrt(r2), std::sqrt(a2)};
 }

@@ -20,7 +20,8 @@ std::vector<Eigen::VectorXd> emphasis_for(const Problem& problem, const Eigen::V
   std::vector<Eigen::VectorXd> emphasis;
   for (std::size_t c = 0; c < problem.channels.size(); ++c) {
     const auto own = variance.segment(static_cast<Eigen::Index>(c) * n, n);
-    emphasis.emplace_back((own.cwiseSqrt().cwiseProduct(problem.weight)).cwiseInverse());
+    constexpr double largest = 1e100;  // where neither reading nor model has any noise: squares still are numbers
+    emphasis.emplace_back((own.cwiseSqrt().cwiseProduct(problem.weight)).cwiseInverse().cwiseMin(largest));
   }
   return emphasis;
 }

@@ -1,6 +1,7 @@
 #include "geometry/pair.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "geometry/angles.h"
@@ -107,68 +108,78 @@ Pair make_pair(const AnglePair& a) noexcept {
   return p;
 }
 
-PairBatch::PairBatch(const std::vector<AnglePair>& angles) {
+namespace {
+
+// An array of the batch and what a pair has for it.
+template <class Real>
+struct Field {
+  std::vector<Real> BasicPairBatch<Real>::*array;
+  double Pair::*member;
+};
+
+template <class Real>
+constexpr std::array fields{
+    Field<Real>{&BasicPairBatch<Real>::cos_i, &Pair::cos_i},
+    Field<Real>{&BasicPairBatch<Real>::cos_r, &Pair::cos_r},
+    Field<Real>{&BasicPairBatch<Real>::one_minus_cos_i, &Pair::one_minus_cos_i},
+    Field<Real>{&BasicPairBatch<Real>::one_minus_cos_r, &Pair::one_minus_cos_r},
+    Field<Real>{&BasicPairBatch<Real>::log_one_minus_cos_i, &Pair::log_one_minus_cos_i},
+    Field<Real>{&BasicPairBatch<Real>::log_one_minus_cos_r, &Pair::log_one_minus_cos_r},
+    Field<Real>{&BasicPairBatch<Real>::s_z, &Pair::s_z},
+    Field<Real>{&BasicPairBatch<Real>::s_h2, &Pair::s_h2},
+    Field<Real>{&BasicPairBatch<Real>::cos_h, &Pair::cos_h},
+    Field<Real>{&BasicPairBatch<Real>::one_minus_cos_h, &Pair::one_minus_cos_h},
+    Field<Real>{&BasicPairBatch<Real>::tan2_b, &Pair::tan2_b},
+    Field<Real>{&BasicPairBatch<Real>::mirror_distance2, &Pair::mirror_distance2},
+    Field<Real>{&BasicPairBatch<Real>::tan2_f, &Pair::tan2_f},
+    Field<Real>{&BasicPairBatch<Real>::tan2_f_swapped, &Pair::tan2_f_swapped},
+    Field<Real>{&BasicPairBatch<Real>::dot_h, &Pair::dot_h},
+    Field<Real>{&BasicPairBatch<Real>::s_x2, &Pair::s_x2},
+    Field<Real>{&BasicPairBatch<Real>::s_y2, &Pair::s_y2},
+    Field<Real>{&BasicPairBatch<Real>::cos2_phi_i, &Pair::cos2_phi_i},
+    Field<Real>{&BasicPairBatch<Real>::sin2_phi_i, &Pair::sin2_phi_i},
+    Field<Real>{&BasicPairBatch<Real>::cos2_phi_r, &Pair::cos2_phi_r},
+    Field<Real>{&BasicPairBatch<Real>::sin2_phi_r, &Pair::sin2_phi_r},
+};
+
+}  // namespace
+
+template <class Real>
+BasicPairBatch<Real>::BasicPairBatch(const std::vector<AnglePair>& angles) {
   reserve(angles.size());
   for (const AnglePair& a : angles) push_back(make_pair(a));
 }
 
-void PairBatch::reserve(std::size_t n) {
-  for (std::vector<double>* v : {&cos_i,
-                                 &cos_r,
-                                 &one_minus_cos_i,
-                                 &one_minus_cos_r,
-                                 &log_one_minus_cos_i,
-                                 &log_one_minus_cos_r,
-                                 &s_z,
-                                 &s_h2,
-                                 &cos_h,
-                                 &one_minus_cos_h,
-                                 &tan2_b,
-                                 &mirror_distance2,
-                                 &tan2_f,
-                                 &tan2_f_swapped,
-                                 &dot_h,
-                                 &s_x2,
-                                 &s_y2,
-                                 &cos2_phi_i,
-                                 &sin2_phi_i,
-                                 &cos2_phi_r,
-                                 &sin2_phi_r,
-                                 &forward}) {
-    v->reserve(n);
-  }
+template <class Real>
+template <class Other>
+BasicPairBatch<Real>::BasicPairBatch(const BasicPairBatch<Other>& other) {
+  reserve(other.size());
+  for (std::size_t i = 0; i < other.size(); ++i) push_back(other.template as<double>(i));
 }
 
-void PairBatch::push_back(const Pair& p) {
-  cos_i.push_back(p.cos_i);
-  cos_r.push_back(p.cos_r);
-  one_minus_cos_i.push_back(p.one_minus_cos_i);
-  one_minus_cos_r.push_back(p.one_minus_cos_r);
-  log_one_minus_cos_i.push_back(p.log_one_minus_cos_i);
-  log_one_minus_cos_r.push_back(p.log_one_minus_cos_r);
-  s_z.push_back(p.s_z);
-  s_h2.push_back(p.s_h2);
-  cos_h.push_back(p.cos_h);
-  one_minus_cos_h.push_back(p.one_minus_cos_h);
-  tan2_b.push_back(p.tan2_b);
-  mirror_distance2.push_back(p.mirror_distance2);
-  tan2_f.push_back(p.tan2_f);
-  tan2_f_swapped.push_back(p.tan2_f_swapped);
-  dot_h.push_back(p.dot_h);
-  s_x2.push_back(p.s_x2);
-  s_y2.push_back(p.s_y2);
-  cos2_phi_i.push_back(p.cos2_phi_i);
-  sin2_phi_i.push_back(p.sin2_phi_i);
-  cos2_phi_r.push_back(p.cos2_phi_r);
-  sin2_phi_r.push_back(p.sin2_phi_r);
-  forward.push_back(p.forward ? 1.0 : 0.0);
+template <class Real>
+void BasicPairBatch<Real>::reserve(std::size_t n) {
+  for (const Field<Real>& f : fields<Real>) (this->*f.array).reserve(n);
+  forward.reserve(n);
 }
 
-PairBatch PairBatch::subset(const std::vector<std::size_t>& rows) const {
-  PairBatch out;
+template <class Real>
+void BasicPairBatch<Real>::push_back(const Pair& p) {
+  for (const Field<Real>& f : fields<Real>) (this->*f.array).push_back(static_cast<Real>(p.*f.member));
+  forward.push_back(p.forward ? Real(1) : Real(0));
+}
+
+template <class Real>
+BasicPairBatch<Real> BasicPairBatch<Real>::subset(const std::vector<std::size_t>& rows) const {
+  BasicPairBatch out;
   out.reserve(rows.size());
-  for (const std::size_t row : rows) out.push_back((*this)[row]);
+  for (const std::size_t row : rows) out.push_back(as<double>(row));
   return out;
 }
+
+template class BasicPairBatch<double>;
+template class BasicPairBatch<float>;
+template BasicPairBatch<float>::BasicPairBatch(const BasicPairBatch<double>&);
+template BasicPairBatch<double>::BasicPairBatch(const BasicPairBatch<float>&);
 
 }  // namespace goniofit

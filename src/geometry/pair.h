@@ -57,46 +57,58 @@ using Pair = BasicPair<double>;
 /// The pair with L and V exchanged.
 [[nodiscard]] AnglePair swapped(const AnglePair& angles) noexcept;
 
-/// Many pairs in structure-of-arrays, for the batch kernels. All arrays have the same length.
-class PairBatch {
+/// Many pairs in structure-of-arrays, for the batch kernels. All arrays have the same length. Real is double, or float
+/// for kernels in single precision: each number is then the nearest to the one computed in double.
+template <class Real>
+class BasicPairBatch {
  public:
-  PairBatch() = default;
-  explicit PairBatch(const std::vector<AnglePair>& angles);
+  BasicPairBatch() = default;
+  explicit BasicPairBatch(const std::vector<AnglePair>& angles);
+  /// Rounds, or widens, another batch.
+  template <class Other>
+  explicit BasicPairBatch(const BasicPairBatch<Other>& other);
 
   void push_back(const Pair& pair);
   void reserve(std::size_t n);
   [[nodiscard]] std::size_t size() const noexcept { return cos_i.size(); }
-  /// Inline: the batch kernels read through it, and what they do not use costs nothing.
-  [[nodiscard]] [[gnu::always_inline]] inline Pair operator[](std::size_t i) const noexcept {
-    return {cos_i[i],
-            cos_r[i],
-            one_minus_cos_i[i],
-            one_minus_cos_r[i],
-            log_one_minus_cos_i[i],
-            log_one_minus_cos_r[i],
-            s_z[i],
-            s_h2[i],
-            cos_h[i],
-            one_minus_cos_h[i],
-            tan2_b[i],
-            mirror_distance2[i],
-            tan2_f[i],
-            tan2_f_swapped[i],
-            dot_h[i],
-            s_x2[i],
-            s_y2[i],
-            cos2_phi_i[i],
-            sin2_phi_i[i],
-            cos2_phi_r[i],
-            sin2_phi_r[i],
-            forward[i] != 0.0};
+  /// Inline: the batch kernels read through it, and what they do not use costs nothing. T is Real or made of it.
+  template <class T>
+  [[nodiscard]] [[gnu::always_inline]] inline BasicPair<T> as(std::size_t i) const noexcept {
+    return {T(cos_i[i]),
+            T(cos_r[i]),
+            T(one_minus_cos_i[i]),
+            T(one_minus_cos_r[i]),
+            T(log_one_minus_cos_i[i]),
+            T(log_one_minus_cos_r[i]),
+            T(s_z[i]),
+            T(s_h2[i]),
+            T(cos_h[i]),
+            T(one_minus_cos_h[i]),
+            T(tan2_b[i]),
+            T(mirror_distance2[i]),
+            T(tan2_f[i]),
+            T(tan2_f_swapped[i]),
+            T(dot_h[i]),
+            T(s_x2[i]),
+            T(s_y2[i]),
+            T(cos2_phi_i[i]),
+            T(sin2_phi_i[i]),
+            T(cos2_phi_r[i]),
+            T(sin2_phi_r[i]),
+            forward[i] != Real(0)};
   }
-  [[nodiscard]] PairBatch subset(const std::vector<std::size_t>& rows) const;
+  [[nodiscard]] [[gnu::always_inline]] inline BasicPair<Real> operator[](std::size_t i) const noexcept {
+    return as<Real>(i);
+  }
+  [[nodiscard]] BasicPairBatch subset(const std::vector<std::size_t>& rows) const;
 
-  std::vector<double> cos_i, cos_r, one_minus_cos_i, one_minus_cos_r, log_one_minus_cos_i, log_one_minus_cos_r, s_z,
-      s_h2, cos_h, one_minus_cos_h, tan2_b, mirror_distance2, tan2_f, tan2_f_swapped, dot_h, s_x2, s_y2, cos2_phi_i,
+  std::vector<Real> cos_i, cos_r, one_minus_cos_i, one_minus_cos_r, log_one_minus_cos_i, log_one_minus_cos_r, s_z, s_h2,
+      cos_h, one_minus_cos_h, tan2_b, mirror_distance2, tan2_f, tan2_f_swapped, dot_h, s_x2, s_y2, cos2_phi_i,
       sin2_phi_i, cos2_phi_r, sin2_phi_r;
-  std::vector<double> forward;  ///< 1 or 0
+  std::vector<Real> forward;  ///< 1 or 0
 };
+
+using PairBatch = BasicPairBatch<double>;
+using FloatPairBatch = BasicPairBatch<float>;
 
 }  // namespace goniofit

@@ -5,15 +5,15 @@ set(GONIOFIT_PACKAGE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/goniofit)
 
 # The public interface. A header that is not here may change without notice, and none here may include one that is not.
 set(GONIOFIT_PUBLIC_HEADERS
-  support/error.h support/output_file.h
-  geometry/angles.h geometry/pair.h geometry/samplings.h geometry/direction.h
+  support/error.h support/instruction_set.h support/output_file.h
+  geometry/angles.h geometry/pair.h geometry/samplings.h geometry/direction.h geometry/direction_batch.h
   terms/tiers.h terms/scalar.h terms/zenith.h terms/lambert_w.h terms/log1p_ratio.h terms/azimuth_difference.h
   terms/fresnel.h terms/shadowing.h terms/student_t_shadowing.h terms/effective_roughness.h terms/slope_distribution.h
   terms/he_torrance.h terms/he_torrance_series.h terms/he_torrance_saddle.h terms/chebyshev_patch.h
   terms/oren_nayar.h terms/v_cavity.h terms/v_cavity_integral.h
   basis/basis.h
   peers/peers.h peers/schlick_sampling.h peers/rational_fraction.h peers/approximation_quality.h
-  brdf/material.h brdf/evaluator.h brdf/sampler.h brdf/sampling_lobes.h brdf/sampling_rows.h
+  brdf/material.h brdf/evaluator.h brdf/batch_evaluator.h brdf/sampler.h brdf/sampling_lobes.h brdf/sampling_rows.h
   scan/scan.h scan/clipping.h scan/reflectance_readings.h
   fit/settings.h fit/loss.h fit/exclusions.h fit/likelihood_profile.h fit/identifiability.h fit/measurement_design.h fit/fit.h fit/residual_tests.h fit/diagnostics.h fit/selection.h fit/comparison.h
   io/scan_reader.h io/material_io.h io/recipe_io.h io/optical_constants.h io/reflectance_reader.h io/exr_table.h

@@ -11,7 +11,7 @@ namespace goniofit::batch {
 template <class Real>
 using FieldArrays = std::array<block::Array<Real>, block::field_count>;
 
-/// A batch of pairs: its own arrays where the precision is the same, else rounded copies.
+/// A batch of pairs: its own arrays where the precision is the same (`room` is not used), else rounded copies.
 template <class Real, class In>
 class PairSource {
  public:
@@ -44,7 +44,7 @@ class PairSource {
   [[nodiscard]] std::size_t size() const noexcept { return pairs_.size(); }
   [[nodiscard]] Pair pair(std::size_t i) const noexcept { return pairs_.template as<double>(i); }
 
-  void prepare(std::size_t first, std::size_t n, FieldArrays<Real>& room, block::Geometry<Real>& g) const {
+  void prepare(std::size_t first, std::size_t n, FieldArrays<Real>* room, block::Geometry<Real>& g) const {
     for (std::size_t f = 0; f < block::field_count; ++f) {
       if (!fields_.has(static_cast<block::Field>(f))) continue;
       const In* const from = arrays_[f]->data() + first;
@@ -52,8 +52,8 @@ class PairSource {
         g.field[f] = from;
       } else {
         constexpr In most = static_cast<In>(std::numeric_limits<Real>::max());
-        for (std::size_t k = 0; k < n; ++k) room[f][k] = static_cast<Real>(from[k] < most ? from[k] : most);
-        g.field[f] = room[f].data();
+        for (std::size_t k = 0; k < n; ++k) (*room)[f][k] = static_cast<Real>(from[k] < most ? from[k] : most);
+        g.field[f] = (*room)[f].data();
       }
     }
   }
@@ -76,14 +76,14 @@ class DirectionSource {
     return make_pair(Direction{d_.l_x[i], d_.l_y[i], d_.l_z[i]}, Direction{d_.v_x[i], d_.v_y[i], d_.v_z[i]});
   }
 
-  void prepare(std::size_t first, std::size_t n, FieldArrays<Real>& room, block::Geometry<Real>& g) const {
+  void prepare(std::size_t first, std::size_t n, FieldArrays<Real>* room, block::Geometry<Real>& g) const {
     block::PrepareArguments<Real, In> a{{d_.l_x.data() + first, d_.l_y.data() + first, d_.l_z.data() + first,
                                          d_.v_x.data() + first, d_.v_y.data() + first, d_.v_z.data() + first},
                                         {},
                                         n};
     for (std::size_t f = 0; f < block::field_count; ++f) {
-      a.field[f] = room[f].data();
-      g.field[f] = room[f].data();
+      a.field[f] = (*room)[f].data();
+      g.field[f] = (*room)[f].data();
     }
     for (const auto loop : loops_) loop(a);
   }

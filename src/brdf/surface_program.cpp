@@ -197,7 +197,7 @@ void SurfaceProgram<Out, Real>::run_blocks(const Source& source, std::span<Out> 
   Workspace w;
   for (std::size_t first = 0; first < source.size(); first += block::size) {
     const std::size_t n = std::min(block::size, source.size() - first);
-    source.prepare(first, n, w.fields, w.geometry);
+    source.prepare(first, n, &w.fields, w.geometry);
     run_shared(source, first, n, w);
     for (std::size_t c = 0; c < plans_.size(); ++c) {
       run_channel(source, c, first, n, w, result.data() + c * source.size() + first);

@@ -2,6 +2,7 @@
 
 #include "brdf/batch_source.h"
 #include "brdf/evaluator.h"
+#include "brdf/peer_program.h"
 #include "brdf/surface_program.h"
 
 namespace goniofit::batch {
@@ -43,7 +44,10 @@ constexpr double single_precision = 2e-5;
 
 template <class Real>
 std::unique_ptr<const Program<Real>> compile(const Material& material, const CompileSettings& settings) {
-  if (material.model != surface_model) return std::make_unique<PairwiseProgram<Real>>(material);
+  if (material.model != surface_model) {
+    if (!block::peer_fields(material.model)) return std::make_unique<PairwiseProgram<Real>>(material);
+    return std::make_unique<PeerProgram<Real>>(material, settings);
+  }
   if (settings.tolerance >= single_precision) return std::make_unique<SurfaceProgram<Real, float>>(material, settings);
   return std::make_unique<SurfaceProgram<Real, Real>>(material, settings);
 }

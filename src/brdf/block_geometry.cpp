@@ -58,13 +58,18 @@ struct Sum {
   }
 };
 
+// The same with the zenith angles' parts: one quotient for all; near the horizon 1 - z as it stands.
 template <class Real, class In, bool logarithms>
 struct Zenith {
   using Arguments = PrepareArguments<Real, In>;
 
-  // One quotient for both directions; near the horizon 1 - z as it stands.
   [[gnu::always_inline]] static void run(const Arguments& a) {
     const auto direction = a.direction;
+    Real* const cos_i = a[Field::cos_i];
+    Real* const cos_r = a[Field::cos_r];
+    Real* const s_z = a[Field::s_z];
+    Real* const s_h2 = a[Field::s_h2];
+    Real* const tan2_b = a[Field::tan2_b];
     Real* const rest_i = a[Field::one_minus_cos_i];
     Real* const rest_r = a[Field::one_minus_cos_r];
     Real* const log_i = a[Field::log_one_minus_cos_i];
@@ -73,18 +78,30 @@ struct Zenith {
 #pragma GCC ivdep
     for (std::size_t k = 0; k < n; ++k) {
       const auto d = Vectors<In>::at(direction, k);
-      const In below = In(1) / ((In(1) + d.l_z) * (In(1) + d.v_z));
-      const In near_i = (square(d.l_x) + square(d.l_y)) * (In(1) + d.v_z) * below;
-      const In near_r = (square(d.v_x) + square(d.v_y)) * (In(1) + d.l_z) * below;
+      const In z = d.l_z + d.v_z;
+      const In h2 = square(d.l_x + d.v_x) + square(d.l_y + d.v_y);
+      const In up_i = In(1) + d.l_z;
+      const In up_r = In(1) + d.v_z;
+      const In over_all = In(1) / (up_i * up_r * square(z));
+      const In over_z2 = up_i * up_r * over_all;
+      const In near = square(z) * over_all;
+      const In near_i = (square(d.l_x) + square(d.l_y)) * up_r * near;
+      const In near_r = (square(d.v_x) + square(d.v_y)) * up_i * near;
       const In i = d.l_z > In(0.5) ? near_i : In(1) - d.l_z;
       const In r = d.v_z > In(0.5) ? near_r : In(1) - d.v_z;
+      cos_i[k] = static_cast<Real>(d.l_z);
+      cos_r[k] = static_cast<Real>(d.v_z);
+      s_z[k] = static_cast<Real>(z);
+      s_h2[k] = static_cast<Real>(h2);
+      tan2_b[k] = static_cast<Real>(h2 * over_z2);
       rest_i[k] = static_cast<Real>(i);
       rest_r[k] = static_cast<Real>(r);
       if constexpr (logarithms) {
-        const In of_i = lane::log(i, -d.l_z);
-        const In of_r = lane::log(r, -d.v_z);
-        log_i[k] = static_cast<Real>(i >= std::numeric_limits<In>::min() ? of_i : In(log_of_zero));
-        log_r[k] = static_cast<Real>(r >= std::numeric_limits<In>::min() ? of_r : In(log_of_zero));
+        const Real of_i = lane::log(static_cast<Real>(i), static_cast<Real>(-d.l_z));
+        const Real of_r = lane::log(static_cast<Real>(r), static_cast<Real>(-d.v_z));
+        constexpr In least = static_cast<In>(std::numeric_limits<Real>::min());
+        log_i[k] = i >= least ? of_i : Real(log_of_zero);
+        log_r[k] = r >= least ? of_r : Real(log_of_zero);
       }
     }
   }
@@ -163,11 +180,13 @@ struct Mirror {
 template <class Real, class In>
 std::vector<Loop<PrepareArguments<Real, In>>> preparations(Fields fields, InstructionSet set) {
   using enum Field;
-  std::vector<Loop<PrepareArguments<Real, In>>> loops{Vectorised<Sum<Real, In>>::of(set)};
+  std::vector<Loop<PrepareArguments<Real, In>>> loops;
   if (fields.any_of({log_one_minus_cos_i, log_one_minus_cos_r})) {
     loops.push_back(Vectorised<Zenith<Real, In, true>>::of(set));
   } else if (fields.any_of({one_minus_cos_i, one_minus_cos_r})) {
     loops.push_back(Vectorised<Zenith<Real, In, false>>::of(set));
+  } else {
+    loops.push_back(Vectorised<Sum<Real, In>>::of(set));
   }
   if (fields.any_of({cos_h, one_minus_cos_h})) loops.push_back(Vectorised<Half<Real, In>>::of(set));
   if (fields.any_of({tan2_f, tan2_f_swapped, forward, dot_h})) loops.push_back(Vectorised<Forward<Real, In>>::of(set));

@@ -2,6 +2,8 @@
 // The vectorised loops over a block: each returns the function for a tier and an instruction set. Isotropic surfaces
 // only; what has no loop here is evaluated pair by pair (batch_evaluator.cpp).
 
+#include <optional>
+#include <string_view>
 #include <vector>
 
 #include "../basis/optics.h"
@@ -112,6 +114,19 @@ template <class Real>
 [[nodiscard]] Loop<FresnelCurveArguments<Real>> fresnel_curve(std::size_t coefficients, InstructionSet);
 template <class Real>
 [[nodiscard]] Loop<FresnelCurveArguments<Real>> transmission_curve(std::size_t coefficients, InstructionSet);
+
+/// The lobe of a peer model of one lobe and one shape parameter, z as its ShapeParameter says; nullopt for other
+/// models.
+template <class Real>
+struct PeerArguments {
+  Geometry<Real> g;
+  Terms<Real>* t;  ///< dd is written
+  std::size_t n;
+  Real z;
+};
+[[nodiscard]] std::optional<Fields> peer_fields(std::string_view model);
+template <class Real>
+[[nodiscard]] Loop<PeerArguments<Real>> peer_lobe(std::string_view model, InstructionSet);
 
 /// One channel: (mirror_0 + mirror_1 p) dd + (below_0 + below_1 fs) t + diffuse, where p and t are what the Fresnel
 /// tier has at hand: (1-u)⁵ and the product of 1 - (1-c)⁵ for schlick, F(u) and T T for exact, nothing for none.

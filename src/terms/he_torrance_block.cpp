@@ -13,11 +13,21 @@ namespace {
 
 using namespace he_torrance;
 
-/// Dense loops run over whole strips: no remainder in narrower vectors.
-constexpr std::size_t strip = 16;
-constexpr std::size_t capacity = he_torrance_block + strip;
+/// Dense loops run over whole strips, the widest vectors: no remainder in narrower ones.
+template <class Real>
+constexpr std::size_t strip = 64 / sizeof(Real);
+/// Fewer places than this are faster one by one than as a strip.
+constexpr std::size_t few = 2;
+constexpr std::size_t capacity = he_torrance_block + strip<float>;
 
-constexpr std::size_t padded(std::size_t n) { return (n + strip - 1) / strip * strip; }
+template <class Real>
+constexpr std::size_t strips(std::size_t n) {
+  return (n + strip<Real> - 1) / strip<Real>;
+}
+template <class Real>
+constexpr std::size_t padded(std::size_t n) {
+  return strips<Real>(n) * strip<Real>;
+}
 
 template <class Real>
 using Column = std::array<Real, capacity>;
@@ -25,7 +35,7 @@ using Column = std::array<Real, capacity>;
 /// Inputs of the expressions, and what they give: ln W + ln g of polynomials, ln W - ln g of sums.
 template <class Real>
 struct Places {
-  alignas(64) Column<Real> r, x, result;
+  alignas(64) Column<Real> r, x, variable, result;
 };
 
 /// The places of up to seven regions, and of what comes after them together. Counters of eight bits in one register:
@@ -71,12 +81,13 @@ struct ShortSum {
   /// One strip.
   template <class Real>
   [[gnu::always_inline]] static void evaluate(const Real* r, const Real* xs, Real* result) {
-    using Strip = std::array<double, strip>;
+    constexpr std::size_t width = strip<Real>;
+    using Strip = std::array<double, width>;
     alignas(64) std::array<Strip, n + 1> e;
     alignas(64) Strip g;
     alignas(64) Strip x;
     alignas(64) Strip s;
-    for (std::size_t k = 0; k < strip; ++k) {
+    for (std::size_t k = 0; k < width; ++k) {
       x[k] = static_cast<double>(xs[k]);
       g[k] = 1.0 / static_cast<double>(r[k]);
       e[0][k] = exp(Lane<double>(x[k] * (-1.0 / n))).v;
@@ -86,31 +97,35 @@ struct ShortSum {
     for (std::size_t j = n - 1; j > 0; --j) {
       if (j > n / 2) {
         const double rate = 1.0 / static_cast<double>(n) - 1.0 / static_cast<double>(j);
-        for (std::size_t k = 0; k < strip; ++k) e[j][k] = exp(Lane<double>(x[k] * rate)).v;
+        for (std::size_t k = 0; k < width; ++k) e[j][k] = exp(Lane<double>(x[k] * rate)).v;
       } else if (j < n / 2) {
-        for (std::size_t k = 0; k < strip; ++k) e[j][k] = e[2 * j][k] * e[2 * j][k] * e[0][k];
+        for (std::size_t k = 0; k < width; ++k) e[j][k] = e[2 * j][k] * e[2 * j][k] * e[0][k];
       }
-      for (std::size_t k = 0; k < strip; ++k) s[k] = s[k] * g[k] + coefficients[j] * e[j][k];
+      for (std::size_t k = 0; k < width; ++k) s[k] = s[k] * g[k] + coefficients[j] * e[j][k];
     }
-    for (std::size_t k = 0; k < strip; ++k) {
+    for (std::size_t k = 0; k < width; ++k) {
       result[k] = static_cast<Real>(log(Lane<double>(s[k])).v - g[k] - x[k] * (1.0 / n));
     }
   }
 };
 
+/// The logarithm in a loop of its own: in one with the polynomials, vectors would wait for one another's long chains.
 template <class Cell, class Real>
 [[gnu::always_inline]] inline void evaluate(const Cell& cell, Places<Real>& p, std::size_t n) {
   const Real* const r = p.r.data();
   const Real* const x = p.x.data();
+  Real* const l = p.variable.data();
   Real* const result = p.result.data();
-  const std::size_t end = padded(n);
+  const std::size_t end = padded<Real>(n);
 #pragma GCC ivdep
-  for (std::size_t i = 0; i < end; ++i) result[i] = cell.log_g_w(r[i], x[i]);
+  for (std::size_t i = 0; i < end; ++i) l[i] = cell.variable(r[i], x[i]);
+#pragma GCC ivdep
+  for (std::size_t i = 0; i < end; ++i) result[i] = cell.log_g_w(r[i], x[i], l[i]);
 }
 
 template <std::size_t terms, class Real>
 [[gnu::always_inline]] inline void evaluate_sum(Places<Real>& p, std::size_t n) {
-  for (std::size_t i = 0; i < n; i += strip) ShortSum<terms>::evaluate(&p.r[i], &p.x[i], &p.result[i]);
+  for (std::size_t i = 0; i < n; i += strip<Real>) ShortSum<terms>::evaluate(&p.r[i], &p.x[i], &p.result[i]);
 }
 
 /// What the fine and the coarse tier differ in: regions and their expressions.
@@ -208,7 +223,7 @@ class Run {
       xs[i] = x[i];
       regions[i] = Tier::region(rs[i], x[i]);
     }
-    for (std::size_t i = n; i < padded(n); ++i) {
+    for (std::size_t i = n; i < padded<Real>(n); ++i) {
       rs[i] = rs[0];
       xs[i] = xs[0];
     }
@@ -237,9 +252,12 @@ class Run {
     rare_.fill(region_.data(), rest, Buckets::last, [&](std::size_t i) { return places[i]; });
     for (int b = 0; b < Buckets::size; ++b) add(rare_, b, b + Buckets::last);
   }
+  /// A few places are faster one by one than in a strip with nothing else.
   [[gnu::always_inline]] void add(Buckets& buckets, int bucket, int region) {
     const std::size_t count = buckets.count(bucket);
-    if (count > 0) task_[tasks_++] = {region, count, buckets.place[static_cast<std::size_t>(bucket)].data()};
+    if (count > 0)
+      task_[tasks_++] = {count > few ? region : Tier::scalar, count,
+                         buckets.place[static_cast<std::size_t>(bucket)].data()};
   }
 
   [[gnu::always_inline]] void carry_out(const Task& t) {
@@ -263,13 +281,13 @@ class Run {
   }
 
   [[gnu::always_inline]] void gather(const Task& t) {
-    for (std::size_t i = t.count; i < padded(t.count); ++i) t.place[i] = t.place[0];
+    for (std::size_t i = t.count; i < padded<Real>(t.count); ++i) t.place[i] = t.place[0];
     const std::int32_t* const place = t.place;
     const Real* const r = all_.r.data();
     const Real* const x = all_.x.data();
     Real* const some_r = some_.r.data();
     Real* const some_x = some_.x.data();
-    const std::size_t end = padded(t.count);
+    const std::size_t end = padded<Real>(t.count);
 #pragma GCC ivdep
     for (std::size_t i = 0; i < end; ++i) {
       some_r[i] = r[place[i]];

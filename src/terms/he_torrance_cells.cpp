@@ -146,22 +146,32 @@ void assign(std::array<Real, n>& to, const std::array<double, n>& from) {
   std::transform(from.begin(), from.end(), to.begin(), [](double c) { return static_cast<Real>(c); });
 }
 
+/// ln v from `low` to `high`.
+template <std::size_t length, class Real>
+void fit(LogVariable<length, Real>& variable, double low, double high) {
+  const double scale = 2.0 / (high - low);
+  variable.by_exponent = static_cast<Real>(scale * std::numbers::ln2);
+  // m - 1.5 lies in [-1/2, 1/2).
+  auto c = fit_line<length>([&](double t) { return scale * (std::log(1.5 + 0.5 * t) - low) - 1.0; });
+  for (std::size_t k = 0; k < length; ++k) c[k] = std::ldexp(c[k], static_cast<int>(k));
+  assign(variable.of_mantissa, c);
+}
+
 /// xi from `xi_low` to `xi_high`, peaks from `least_peak` up.
-template <class S, std::size_t decay_length, class Real, class Contains>
-void fit(SaddleCell<S, decay_length, Real>& cell, double xi_low, double xi_high, double least_peak,
+template <class S, std::size_t log_length, std::size_t decay_length, class Real, class Contains>
+void fit(SaddleCell<S, log_length, decay_length, Real>& cell, double xi_low, double xi_high, double least_peak,
          const Contains& contains) {
-  using Cell = SaddleCell<S, decay_length, Real>;
-  const double low = std::log1p(Cell::xi_scale * xi_low);
-  const double high = std::log1p(Cell::xi_scale * xi_high);
-  const auto xi_at = [&](double l) { return std::expm1(low + 0.5 * (1.0 + l) * (high - low)) / Cell::xi_scale; };
+  using Cell = SaddleCell<S, log_length, decay_length, Real>;
+  const double low = std::log1p(Cell::scale * xi_low);
+  const double high = std::log1p(Cell::scale * xi_high);
+  const auto xi_at = [&](double l) { return std::expm1(low + 0.5 * (1.0 + l) * (high - low)) / Cell::scale; };
   const auto root = fit_line<Cell::root_length>(
       [&](double l) { return std::sqrt(2.0 * least_peak) * std::exp(-0.5 * saddle_exponent(0.0, xi_at(l))); });
-  cell.l_scale = static_cast<Real>(2.0 / (high - low));
-  cell.l_shift = static_cast<Real>(-(high + low) / (high - low));
+  fit(cell.log_variable, low, high);
   assign(cell.root_q, root);
   assign(cell.decay, fit_line<decay_length>([&](double l) { return saddle_decay(xi_at(l)); }));
   const auto place_at = [&](double a, double l) {
-    const double r = (1.0 + a) / std::pow(horner<Cell::root_length>(root.data(), l), 2);
+    const double r = (1.0 + a) / std::pow(polynomial<Cell::root_length>(root.data(), l), 2);
     return Place{r, xi_at(l) / (r * r)};
   };
   assign(cell.prefactor,
@@ -169,19 +179,18 @@ void fit(SaddleCell<S, decay_length, Real>& cell, double xi_low, double xi_high,
 }
 
 /// g from `least_g` to `greatest_g`, x up to `greatest_x`.
-template <class S, class Real, class Contains>
-void fit(OriginCell<S, Real>& cell, double least_g, double greatest_g, double greatest_x, const Contains& contains) {
-  using Cell = OriginCell<S, Real>;
-  const double high = std::log1p(Cell::x_scale * greatest_x);
+template <class S, std::size_t log_length, class Real, class Contains>
+void fit(OriginCell<S, log_length, Real>& cell, double least_g, double greatest_g, double greatest_x,
+         const Contains& contains) {
+  using Cell = OriginCell<S, log_length, Real>;
+  const double high = std::log1p(Cell::scale * greatest_x);
   const double least_r = 1.0 / greatest_g;
   const double greatest_r = 1.0 / least_g;
-  cell.l_scale = static_cast<Real>(2.0 / high);
-  cell.l_shift = Real(-1);
+  fit(cell.log_variable, 0.0, high);
   cell.a_scale = static_cast<Real>(2.0 / (greatest_r - least_r));
   cell.a_shift = static_cast<Real>(-(greatest_r + least_r) / (greatest_r - least_r));
   const auto place_at = [&](double a, double l) {
-    return Place{least_r + 0.5 * (1.0 + a) * (greatest_r - least_r),
-                 std::expm1(0.5 * (1.0 + l) * high) / Cell::x_scale};
+    return Place{least_r + 0.5 * (1.0 + a) * (greatest_r - least_r), std::expm1(0.5 * (1.0 + l) * high) / Cell::scale};
   };
   assign(cell.prefactor, fit_region<S>(place_at, contains, [](double r, double x) {
            return log_he_torrance_series(-std::log(r), x) - std::log(r) + x * r;

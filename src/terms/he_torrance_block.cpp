@@ -38,27 +38,34 @@ struct Places {
   alignas(64) Column<Real> r, x, variable, result;
 };
 
-/// The places of up to seven regions, and of what comes after them together. Counters of eight bits in one register:
-/// counters in memory would make each place wait for the store of the one before.
+/// The places of each region. The counters are fields of one register: in
+/// memory, each place would wait for the store of the one before.
 struct Buckets {
-  static constexpr int size = 8;
-  static constexpr int last = size - 1;
+  static constexpr int size = 7;
+  static constexpr int bits = 9;  ///< of a counter: a block has 256 places
 
   alignas(64) std::array<std::array<std::int32_t, capacity>, size> place;
   std::uint64_t counts = 0;
 
-  [[nodiscard]] std::size_t count(int bucket) const { return (counts >> (8 * bucket)) & 255; }
+  [[nodiscard]] [[gnu::always_inline]] std::size_t count(int bucket) const {
+    return counter(counts, static_cast<std::uint64_t>(bucket));
+  }
+  [[nodiscard]] [[gnu::always_inline]] std::int32_t* places(int bucket) {
+    return place[static_cast<std::size_t>(bucket)].data();
+  }
+  [[nodiscard]] [[gnu::always_inline]] static std::size_t counter(std::uint64_t counts, std::uint64_t bucket) {
+    return (counts >> (bits * bucket)) & ((1U << bits) - 1);
+  }
 
-  /// Region i goes to bucket i - first, or the last. No bucket may come to 256.
+  /// region[i] of place_at(i).
   template <class Number, class PlaceAt>
-  [[gnu::always_inline]] void fill(const Number* region, std::size_t n, int first, const PlaceAt& place_at) {
+  [[gnu::always_inline]] void fill(const Number* region, std::size_t n, const PlaceAt& place_at) {
     std::uint64_t filled = 0;
     std::int32_t* const places = place[0].data();
     for (std::size_t i = 0; i < n; ++i) {
-      const std::int32_t at = place_at(i);
-      const auto bucket = static_cast<std::uint64_t>(std::min<Number>(region[at] - static_cast<Number>(first), last));
-      places[bucket * capacity + ((filled >> (8 * bucket)) & 255)] = at;
-      filled += std::uint64_t{1} << (8 * bucket);
+      const auto bucket = static_cast<std::uint64_t>(region[i]);
+      places[bucket * capacity + counter(filled, bucket)] = place_at(i);
+      filled += std::uint64_t{1} << (bits * bucket);
     }
     counts = filled;
   }
@@ -131,31 +138,28 @@ template <std::size_t terms, class Real>
 /// What the fine and the coarse tier differ in: regions and their expressions.
 struct Fine {
   using Real = double;
-  static constexpr int first_sum = fine::sum_16;
+  static constexpr int usual = fine::shallow_large;
+  static constexpr int rest = fine::rest;
   static constexpr int scalar = fine::scalar;
   const FineCells& cells = FineCells::get();
 
   [[gnu::always_inline]] static RegionNumber<Real> region(Real r, Real x) { return fine_region(r, x); }
+  [[gnu::always_inline]] static RegionNumber<Real> region_of_rest(Real r, Real x) { return fine_rest(r, x); }
   [[gnu::always_inline]] void evaluate_region(int region, Places<Real>& p, std::size_t n) const {
     switch (region) {
-      case fine::shallow_large:
-        return evaluate(cells.shallow_large, p, n);
-      case fine::shallow:
-        return evaluate(cells.shallow, p, n);
-      case fine::deep:
-        return evaluate(cells.deep, p, n);
-      case fine::shallow_small:
-        return evaluate(cells.shallow_small, p, n);
-      case fine::deep_small:
-        return evaluate(cells.deep_small, p, n);
-      case fine::origin:
-        return evaluate(cells.origin, p, n);
-      case fine::sum_16:
-        return evaluate_sum<16>(p, n);
-      case fine::sum_32:
-        return evaluate_sum<32>(p, n);
-      default:
-        return evaluate_sum<48>(p, n);
+      case fine::shallow_large: return evaluate(cells.shallow_large, p, n);
+      case fine::shallow: return evaluate(cells.shallow, p, n);
+      case fine::deep: return evaluate(cells.deep, p, n);
+      case fine::shallow_small: return evaluate(cells.shallow_small, p, n);
+      case fine::deep_small: return evaluate(cells.deep_small, p, n);
+      default: return evaluate(cells.origin, p, n);
+    }
+  }
+  [[gnu::always_inline]] static void evaluate_rest(int region, Places<Real>& p, std::size_t n) {
+    switch (region) {
+      case fine::sum_16: return evaluate_sum<16>(p, n);
+      case fine::sum_32: return evaluate_sum<32>(p, n);
+      default: return evaluate_sum<48>(p, n);
     }
   }
 };
@@ -163,41 +167,36 @@ struct Fine {
 template <class Number>
 struct Coarse {
   using Real = Number;
-  static constexpr int first_sum = coarse::sum_8;
+  static constexpr int usual = coarse::saddle;
+  static constexpr int rest = coarse::rest;
   static constexpr int scalar = coarse::scalar;
   const CoarseCells<Real>& cells = CoarseCells<Real>::get();
 
   [[gnu::always_inline]] static RegionNumber<Real> region(Real r, Real x) { return coarse_region(r, x); }
+  [[gnu::always_inline]] static RegionNumber<Real> region_of_rest(Real r, Real x) { return coarse_rest(r, x); }
   [[gnu::always_inline]] void evaluate_region(int region, Places<Real>& p, std::size_t n) const {
     switch (region) {
-      case coarse::saddle:
-        return evaluate(cells.saddle, p, n);
-      case coarse::origin:
-        return evaluate(cells.origin, p, n);
-      case coarse::sum_8:
-        return evaluate_sum<8>(p, n);
-      case coarse::sum_16:
-        return evaluate_sum<16>(p, n);
-      default:
-        return evaluate_sum<32>(p, n);
+      case coarse::saddle: return evaluate(cells.saddle, p, n);
+      default: return evaluate(cells.origin, p, n);
+    }
+  }
+  [[gnu::always_inline]] static void evaluate_rest(int region, Places<Real>& p, std::size_t n) {
+    switch (region) {
+      case coarse::sum_8: return evaluate_sum<8>(p, n);
+      case coarse::sum_16: return evaluate_sum<16>(p, n);
+      default: return evaluate_sum<32>(p, n);
     }
   }
 };
 
 [[gnu::noinline]] double log_w_of_one(double log_g, double x) { return he_torrance_log_w(log_g, x); }
 
-/// Places that share a region; all of them where `place` is null.
-struct Task {
-  int region;
-  std::size_t count;
-  std::int32_t* place;
-};
-
 /// A block by one tier.
 template <class Tier>
 class Run {
  public:
   using Real = typename Tier::Real;
+  using Number = RegionNumber<Real>;
 
   [[gnu::always_inline]] Run(const Real* log_g, const Real* x, std::size_t n, Real* log_w)
       : log_g_(log_g), x_(x), n_(n), log_w_(log_w) {}
@@ -205,8 +204,21 @@ class Run {
   [[gnu::always_inline]] void operator()() {
     if (n_ == 0) return;
     classify();
-    plan();
-    for (std::size_t i = 0; i < tasks_; ++i) carry_out(task_[i]);
+    const std::size_t others = count_unusual();
+    if (4 * others > n_) {
+      buckets_.fill(region_.data(), n_, [](std::size_t i) { return static_cast<std::int32_t>(i); });
+    } else {
+      sort_unusual(others);
+      tier_.evaluate_region(Tier::usual, all_, n_);
+      put_all();
+    }
+    for (int region = 0; region < Tier::rest; ++region) {
+      if (!one_by_one(region)) continue;
+      const std::size_t n = gather(region);
+      tier_.evaluate_region(region, some_, n);
+      put(region, n, Real(-1));
+    }
+    if (buckets_.count(Tier::rest) > 0) sums();
   }
 
  private:
@@ -216,12 +228,12 @@ class Run {
     const Real* const x = x_;
     Real* const rs = all_.r.data();
     Real* const xs = all_.x.data();
-    RegionNumber<Real>* const regions = region_.data();
+    Number* const region = region_.data();
 #pragma GCC ivdep
     for (std::size_t i = 0; i < n; ++i) {
       rs[i] = exp(Lane<Real>(-log_g[i])).v;
       xs[i] = x[i];
-      regions[i] = Tier::region(rs[i], x[i]);
+      region[i] = Tier::region(rs[i], x[i]);
     }
     for (std::size_t i = n; i < padded<Real>(n); ++i) {
       rs[i] = rs[0];
@@ -229,77 +241,96 @@ class Run {
     }
   }
 
-  /// Where most places are of one region, its expression is evaluated at all places as they lie, before the others.
-  [[gnu::always_inline]] void plan() {
+  [[nodiscard]] [[gnu::always_inline]] std::size_t count_unusual() const {
     const std::size_t n = n_;
-    RegionNumber<Real> differ = 0;
-    for (std::size_t i = 0; i < n; ++i) differ |= region_[i] ^ region_[0];
-    if (differ == 0) {
-      task_[tasks_++] = {static_cast<int>(region_[0]), n_, nullptr};
-      return;
-    }
-    common_.fill(region_.data(), n_, 0, [](std::size_t i) { return static_cast<std::int32_t>(i); });
-    for (int b = 0; b < Buckets::last; ++b) {
-      if (4 * common_.count(b) >= 3 * n_) task_[tasks_++] = {b, n_, nullptr};
-    }
-    const bool has_major = tasks_ > 0;
-    for (int b = 0; b < Buckets::last; ++b) {
-      if (!(has_major && b == task_[0].region)) add(common_, b, b);
-    }
-    const std::size_t rest = common_.count(Buckets::last);
-    if (rest == 0) return;
-    const auto& places = common_.place[Buckets::last];
-    rare_.fill(region_.data(), rest, Buckets::last, [&](std::size_t i) { return places[i]; });
-    for (int b = 0; b < Buckets::size; ++b) add(rare_, b, b + Buckets::last);
-  }
-  /// A few places are faster one by one than in a strip with nothing else.
-  [[gnu::always_inline]] void add(Buckets& buckets, int bucket, int region) {
-    const std::size_t count = buckets.count(bucket);
-    if (count > 0)
-      task_[tasks_++] = {count > few ? region : Tier::scalar, count,
-                         buckets.place[static_cast<std::size_t>(bucket)].data()};
+    const Number* const region = region_.data();
+    Number count = 0;
+    for (std::size_t i = 0; i < n; ++i) count += region[i] == Tier::usual ? Number(0) : Number(1);
+    return static_cast<std::size_t>(count);
   }
 
-  [[gnu::always_inline]] void carry_out(const Task& t) {
-    if (t.region == Tier::scalar) return one_by_one(t);
-    Places<Real>& p = t.place == nullptr ? all_ : some_;
-    if (t.place != nullptr) gather(t);
-    tier_.evaluate_region(t.region, p, t.count);
-    const Real sign = t.region < Tier::first_sum ? Real(-1) : Real(1);
-    const Real* const log_g = log_g_;
-    const Real* const result = p.result.data();
-    Real* const log_w = log_w_;
-    const std::size_t n = t.count;
-    if (t.place == nullptr) {
+  /// Where most places are usual, their expression is evaluated at all places as they lie, before the others.
+  [[gnu::always_inline]] void sort_unusual(std::size_t count) {
+    const Number* const region = region_.data();
+    std::int32_t* const place = place_.data();
+    Number* const their_region = rest_region_.data();
+    std::size_t found = 0;
+    for (std::size_t i = 0; found < count; ++i) {
+      place[found] = static_cast<std::int32_t>(i);
+      their_region[found] = region[i];
+      found += region[i] == Tier::usual ? 0 : 1;
+    }
+    buckets_.fill(their_region, count, [place](std::size_t i) { return place[i]; });
+  }
+
+  /// What is left once the polynomials are done.
+  [[gnu::always_inline]] void sums() {
+    const std::size_t n = gather(Tier::rest);
+    const Real* const r = some_.r.data();
+    const Real* const x = some_.x.data();
+    Number* const region = rest_region_.data();
 #pragma GCC ivdep
-      for (std::size_t i = 0; i < n; ++i) log_w[i] = result[i] + sign * log_g[i];
-    } else {
-      const std::int32_t* const place = t.place;
-#pragma GCC ivdep
-      for (std::size_t i = 0; i < n; ++i) log_w[place[i]] = result[i] + sign * log_g[place[i]];
+    for (std::size_t i = 0; i < n; ++i) region[i] = Tier::region_of_rest(r[i], x[i]);
+    std::copy_n(buckets_.places(Tier::rest), n, place_.data());
+    const std::int32_t* const place = place_.data();
+    buckets_.fill(region, n, [place](std::size_t i) { return place[i]; });
+    for (int sum = 0; sum < Tier::scalar; ++sum) {
+      if (!one_by_one(sum)) continue;
+      const std::size_t count = gather(sum);
+      tier_.evaluate_rest(sum, some_, count);
+      put(sum, count, Real(1));
+    }
+    each(Tier::scalar);
+  }
+
+  /// Does so and returns false where there are few in the bucket, or none.
+  [[nodiscard]] [[gnu::always_inline]] bool one_by_one(int bucket) {
+    if (buckets_.count(bucket) > few) return true;
+    each(bucket);
+    return false;
+  }
+  [[gnu::always_inline]] void each(int bucket) {
+    const std::int32_t* const place = buckets_.places(bucket);
+    for (std::size_t i = 0; i < buckets_.count(bucket); ++i) {
+      const auto at = static_cast<std::size_t>(place[i]);
+      log_w_[at] = static_cast<Real>(log_w_of_one(static_cast<double>(log_g_[at]), static_cast<double>(x_[at])));
     }
   }
 
-  [[gnu::always_inline]] void gather(const Task& t) {
-    for (std::size_t i = t.count; i < padded<Real>(t.count); ++i) t.place[i] = t.place[0];
-    const std::int32_t* const place = t.place;
+  /// The inputs of a bucket, side by side; how many there are.
+  [[gnu::always_inline]] std::size_t gather(int bucket) {
+    const std::size_t n = buckets_.count(bucket);
+    const std::size_t end = padded<Real>(n);
+    std::int32_t* const place = buckets_.places(bucket);
+    for (std::size_t i = n; i < end; ++i) place[i] = place[0];
     const Real* const r = all_.r.data();
     const Real* const x = all_.x.data();
     Real* const some_r = some_.r.data();
     Real* const some_x = some_.x.data();
-    const std::size_t end = padded<Real>(t.count);
 #pragma GCC ivdep
     for (std::size_t i = 0; i < end; ++i) {
       some_r[i] = r[place[i]];
       some_x[i] = x[place[i]];
     }
+    return n;
   }
 
-  [[gnu::always_inline]] void one_by_one(const Task& t) {
-    for (std::size_t i = 0; i < t.count; ++i) {
-      const std::size_t at = t.place == nullptr ? i : static_cast<std::size_t>(t.place[i]);
-      log_w_[at] = static_cast<Real>(log_w_of_one(static_cast<double>(log_g_[at]), static_cast<double>(x_[at])));
-    }
+  /// ln W from results and `sign` ln g.
+  [[gnu::always_inline]] void put(int bucket, std::size_t n, Real sign) {
+    const std::int32_t* const place = buckets_.places(bucket);
+    const Real* const log_g = log_g_;
+    const Real* const result = some_.result.data();
+    Real* const log_w = log_w_;
+#pragma GCC ivdep
+    for (std::size_t i = 0; i < n; ++i) log_w[place[i]] = result[i] + sign * log_g[place[i]];
+  }
+  [[gnu::always_inline]] void put_all() {
+    const std::size_t n = n_;
+    const Real* const log_g = log_g_;
+    const Real* const result = all_.result.data();
+    Real* const log_w = log_w_;
+#pragma GCC ivdep
+    for (std::size_t i = 0; i < n; ++i) log_w[i] = result[i] - log_g[i];
   }
 
   const Real* log_g_;
@@ -308,10 +339,9 @@ class Run {
   Real* log_w_;
   Tier tier_;
   Places<Real> all_, some_;
-  alignas(64) std::array<RegionNumber<Real>, capacity> region_;
-  Buckets common_, rare_;
-  std::array<Task, 2 * Buckets::size + 1> task_;
-  std::size_t tasks_ = 0;
+  alignas(64) std::array<Number, capacity> region_, rest_region_;
+  std::array<std::int32_t, capacity> place_;
+  Buckets buckets_;
 };
 
 template <class Tier, class Real = typename Tier::Real>

@@ -16,14 +16,16 @@
 
 namespace goniofit::he_torrance {
 
-/// Regions of the fine expressions (1e-9) and of the coarse (1e-4): each in order of frequency on rough surfaces.
-/// Numbers from `rare` on are sorted in a second pass.
+/// The fine expressions are within 1e-9, the coarse within 1e-4. A region is a polynomial's or `rest`; the rest has its
+/// own.
 namespace fine {
-enum Region : int { shallow_large, shallow, deep, shallow_small, deep_small, origin, sum_16, sum_32, sum_48, scalar };
-}
+enum Region : int { shallow_large, shallow, deep, shallow_small, deep_small, origin, rest };
+enum Rest : int { sum_16, sum_32, sum_48, scalar };
+}  // namespace fine
 namespace coarse {
-enum Region : int { saddle, origin, sum_8, sum_16, sum_32, scalar };
-}
+enum Region : int { saddle, origin, rest };
+enum Rest : int { sum_8, sum_16, sum_32, scalar };
+}  // namespace coarse
 
 /// Largest xi of polynomials: w = 4.5.
 inline constexpr double greatest_xi = 36463.0;
@@ -62,7 +64,7 @@ struct PeakBound {
   }
 };
 
-/// The bounds of the sums are where what they leave out is 1e-10 of W (coarse: 2e-5).
+/// A polynomial's region, or fine::rest.
 template <class Real>
 [[nodiscard]] [[gnu::always_inline]] inline RegionNumber<Real> fine_region(Real r, Real x) {
   using namespace fine;
@@ -70,38 +72,57 @@ template <class Real>
   const Real xi = x * r * r;
   const PeakBound<Real> peak(r, xi);
   const bool is_deep = xi > Real(deep_xi);
-  const bool beyond = xi > Real(greatest_xi);
   const bool large_g = r <= Real(1.0 / 70.0);
   const bool clear = (x >= Real(25)) | large_g;
   const bool smooth = clear & (xi <= Real(greatest_xi));
-  Number n = scalar;
-  n = peak.below(is_deep, beyond, 17.3, 24.0, 9.8) ? Number(sum_48) : n;
-  n = peak.below(is_deep, beyond, 8.9, 13.1, 6.2) ? Number(sum_32) : n;
-  n = peak.below(is_deep, beyond, 2.42, 3.95, 2.8) ? Number(sum_16) : n;
+  Number n = rest;
   n = !clear & (r <= Real(1.0 / 15.0)) ? Number(origin) : n;
   n = smooth & is_deep & (xi <= Real(179.2)) & peak.above(12.0) ? Number(deep_small) : n;
   n = smooth & !is_deep & peak.above(12.0) ? Number(shallow_small) : n;
   n = smooth & peak.above(20.0) ? (is_deep ? Number(deep) : Number(shallow)) : n;
-  n = smooth & !is_deep & (peak.above(50.0) | large_g) ? Number(shallow_large) : n;
-  return r > Real(1e-30) ? n : Number(scalar);
+  return smooth & !is_deep & (peak.above(50.0) | large_g) ? Number(shallow_large) : n;
 }
 
+/// Of the rest: the shortest sum that leaves out less than 1e-10 of W.
+template <class Real>
+[[nodiscard]] [[gnu::always_inline]] inline RegionNumber<Real> fine_rest(Real r, Real x) {
+  using namespace fine;
+  using Number = RegionNumber<Real>;
+  const Real xi = x * r * r;
+  const PeakBound<Real> peak(r, xi);
+  const bool is_deep = xi > Real(deep_xi);
+  const bool beyond = xi > Real(greatest_xi);
+  Number n = scalar;
+  n = peak.below(is_deep, beyond, 17.3, 24.0, 9.8) ? Number(sum_48) : n;
+  n = peak.below(is_deep, beyond, 8.9, 13.1, 6.2) ? Number(sum_32) : n;
+  return peak.below(is_deep, beyond, 2.42, 3.95, 2.8) ? Number(sum_16) : n;
+}
+
+/// A polynomial's region, or coarse::rest.
 template <class Real>
 [[nodiscard]] [[gnu::always_inline]] inline RegionNumber<Real> coarse_region(Real r, Real x) {
   using namespace coarse;
   using Number = RegionNumber<Real>;
   const Real xi = x * r * r;
   const PeakBound<Real> peak(r, xi);
+  const bool clear = (x >= Real(15)) | (r <= Real(1.0 / 40.0));
+  const Number n = !clear & (r <= Real(1.0 / 9.0)) ? Number(origin) : Number(rest);
+  return clear & (xi <= Real(greatest_xi)) & peak.above(8.5) ? Number(saddle) : n;
+}
+
+/// Of the rest: the shortest sum that leaves out less than 2e-5 of W.
+template <class Real>
+[[nodiscard]] [[gnu::always_inline]] inline RegionNumber<Real> coarse_rest(Real r, Real x) {
+  using namespace coarse;
+  using Number = RegionNumber<Real>;
+  const Real xi = x * r * r;
+  const PeakBound<Real> peak(r, xi);
   const bool is_deep = xi > Real(deep_xi);
   const bool beyond = xi > Real(greatest_xi);
-  const bool clear = (x >= Real(15)) | (r <= Real(1.0 / 40.0));
   Number n = scalar;
   n = peak.below(is_deep, beyond, 15.0, 18.7, 6.9) ? Number(sum_32) : n;
   n = peak.below(is_deep, beyond, 5.5, 7.6, 3.25) ? Number(sum_16) : n;
-  n = peak.below(is_deep, beyond, 1.74, 2.6, 1.53) ? Number(sum_8) : n;
-  n = !clear & (r <= Real(1.0 / 9.0)) ? Number(origin) : n;
-  n = clear & (xi <= Real(greatest_xi)) & peak.above(8.5) ? Number(saddle) : n;
-  return r > Real(1e-30) ? n : Number(scalar);
+  return peak.below(is_deep, beyond, 1.74, 2.6, 1.53) ? Number(sum_8) : n;
 }
 
 }  // namespace goniofit::he_torrance

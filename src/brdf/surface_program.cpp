@@ -5,7 +5,8 @@
 
 #include "brdf/effects.h"
 #include "brdf/rough_shape.h"
-#include "terms/he_torrance.h"
+#include "terms/he_torrance_block.h"
+#include "terms/he_torrance_series.h"
 
 namespace goniofit::batch {
 
@@ -292,9 +293,16 @@ void SurfaceProgram<Out, Real>::run_wave(const ChannelPlan<Real>& plan, std::siz
                                          static_cast<Real>(std::log(wave_number) + log_sigma_),
                                          static_cast<Real>(half_tau * half_tau)};
   wave_arguments_(a);
-  for (std::size_t k = 0; k < n; ++k) {
-    w.terms.log_w[k] =
-        static_cast<Real>(log_wave_lobe(shape_.distribution, double(w.terms.log_g[k]), double(w.terms.x[k])));
+  if (shape_.distribution == DistributionTier::he_torrance_series) {
+    for (std::size_t k = 0; k < n; ++k) {
+      const double log_w = log_he_torrance_series(double(w.terms.log_g[k]), double(w.terms.x[k]));
+      w.terms.log_w[k] = static_cast<Real>(log_w);
+    }
+  } else if constexpr (std::is_same_v<Real, double>) {
+    log_he_torrance_block(w.terms.log_g.data(), w.terms.x.data(), n, w.terms.log_w.data(), HeTorranceAccuracy::fine,
+                          set_);
+  } else {
+    log_he_torrance_block(w.terms.log_g.data(), w.terms.x.data(), n, w.terms.log_w.data(), set_);
   }
   wave_lobe_(a);
 }

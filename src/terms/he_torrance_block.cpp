@@ -147,19 +147,28 @@ struct Fine {
   [[gnu::always_inline]] static RegionNumber<Real> region_of_rest(Real r, Real x) { return fine_rest(r, x); }
   [[gnu::always_inline]] void evaluate_region(int region, Places<Real>& p, std::size_t n) const {
     switch (region) {
-      case fine::shallow_large: return evaluate(cells.shallow_large, p, n);
-      case fine::shallow: return evaluate(cells.shallow, p, n);
-      case fine::deep: return evaluate(cells.deep, p, n);
-      case fine::shallow_small: return evaluate(cells.shallow_small, p, n);
-      case fine::deep_small: return evaluate(cells.deep_small, p, n);
-      default: return evaluate(cells.origin, p, n);
+      case fine::shallow_large:
+        return evaluate(cells.shallow_large, p, n);
+      case fine::shallow:
+        return evaluate(cells.shallow, p, n);
+      case fine::deep:
+        return evaluate(cells.deep, p, n);
+      case fine::shallow_small:
+        return evaluate(cells.shallow_small, p, n);
+      case fine::deep_small:
+        return evaluate(cells.deep_small, p, n);
+      default:
+        return evaluate(cells.origin, p, n);
     }
   }
   [[gnu::always_inline]] static void evaluate_rest(int region, Places<Real>& p, std::size_t n) {
     switch (region) {
-      case fine::sum_16: return evaluate_sum<16>(p, n);
-      case fine::sum_32: return evaluate_sum<32>(p, n);
-      default: return evaluate_sum<48>(p, n);
+      case fine::sum_16:
+        return evaluate_sum<16>(p, n);
+      case fine::sum_32:
+        return evaluate_sum<32>(p, n);
+      default:
+        return evaluate_sum<48>(p, n);
     }
   }
 };
@@ -176,15 +185,20 @@ struct Coarse {
   [[gnu::always_inline]] static RegionNumber<Real> region_of_rest(Real r, Real x) { return coarse_rest(r, x); }
   [[gnu::always_inline]] void evaluate_region(int region, Places<Real>& p, std::size_t n) const {
     switch (region) {
-      case coarse::saddle: return evaluate(cells.saddle, p, n);
-      default: return evaluate(cells.origin, p, n);
+      case coarse::saddle:
+        return evaluate(cells.saddle, p, n);
+      default:
+        return evaluate(cells.origin, p, n);
     }
   }
   [[gnu::always_inline]] static void evaluate_rest(int region, Places<Real>& p, std::size_t n) {
     switch (region) {
-      case coarse::sum_8: return evaluate_sum<8>(p, n);
-      case coarse::sum_16: return evaluate_sum<16>(p, n);
-      default: return evaluate_sum<32>(p, n);
+      case coarse::sum_8:
+        return evaluate_sum<8>(p, n);
+      case coarse::sum_16:
+        return evaluate_sum<16>(p, n);
+      default:
+        return evaluate_sum<32>(p, n);
     }
   }
 };
@@ -360,15 +374,20 @@ GONIOFIT_TARGET_AVX512 void run_avx512(const Real* log_g, const Real* x, std::si
 template <class Tier, class Real = typename Tier::Real>
 void run(const Real* log_g, const Real* x, std::size_t n, Real* log_w, InstructionSet instructions) {
   static constexpr std::array by_instructions{&run_sse2<Tier>, &run_avx2<Tier>, &run_avx512<Tier>};
-  by_instructions[static_cast<std::size_t>(instructions)](log_g, x, n, log_w);
+  const auto run_block = by_instructions[static_cast<std::size_t>(instructions)];
+  for (std::size_t i = 0; i < n; i += he_torrance_block) {
+    run_block(log_g + i, x + i, std::min(n - i, he_torrance_block), log_w + i);
+  }
 }
 
 }  // namespace
 
 void log_he_torrance_block(const double* log_g, const double* x, std::size_t n, double* log_w,
                            HeTorranceAccuracy accuracy, InstructionSet instructions) {
-  if (accuracy == HeTorranceAccuracy::fine) return run<Fine>(log_g, x, n, log_w, instructions);
-  run<Coarse<double>>(log_g, x, n, log_w, instructions);
+  if (accuracy == HeTorranceAccuracy::coarse) return run<Coarse<double>>(log_g, x, n, log_w, instructions);
+  if (instructions != InstructionSet::sse2) return run<Fine>(log_g, x, n, log_w, instructions);
+  // Two lanes without a fused multiply-add lose to the tables.
+  for (std::size_t i = 0; i < n; ++i) log_w[i] = log_w_of_one(log_g[i], x[i]);
 }
 
 void log_he_torrance_block(const float* log_g, const float* x, std::size_t n, float* log_w,

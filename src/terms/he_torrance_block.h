@@ -12,16 +12,16 @@ namespace goniofit {
 /// Largest error of ln W: 1e-9 or 1e-4.
 enum class HeTorranceAccuracy : std::uint8_t { fine, coarse };
 
-/// Places a call takes at most.
+/// Places are taken in blocks of this many: fewer at a time cost more each.
 inline constexpr std::size_t he_torrance_block = 256;
 
-/// log_w[i] = ln W(g, x) at (log_g[i], x[i]), x >= 0, i < n <= he_torrance_block; log_w must not
-/// overlap the arguments.
-/// W below e^-690 may come back as anything below that. What is fitted beforehand takes some 15 ms at the first call.
+/// log_w[i] = ln W(g, x) at (log_g[i], x[i]), |ln g| <= 690, x >= 0. log_w must not overlap the others. W below e^-690
+/// may come back as anything below that. The polynomials are fitted at the first call, some 10 ms. Safe to call from
+/// several threads.
 void log_he_torrance_block(const double* log_g, const double* x, std::size_t n, double* log_w,
                            HeTorranceAccuracy accuracy, InstructionSet instructions);
 
-/// In single precision: within 1e-5 (1 + |ln W|); W below e^-80 may come back as anything below that.
+/// In single precision: within 1e-5 (1 + |ln W|), |ln g| <= 75; W below e^-80 may come back as anything below that.
 void log_he_torrance_block(const float* log_g, const float* x, std::size_t n, float* log_w,
                            InstructionSet instructions);
 

@@ -247,8 +247,9 @@ class Run {
     for (std::size_t i = 0; i < n; ++i) {
       rs[i] = exp(Lane<Real>(-log_g[i])).v;
       xs[i] = x[i];
-      region[i] = Tier::region(rs[i], x[i]);
     }
+#pragma GCC ivdep
+    for (std::size_t i = 0; i < n; ++i) region[i] = Tier::region(rs[i], xs[i]);
     for (std::size_t i = n; i < padded<Real>(n); ++i) {
       rs[i] = rs[0];
       xs[i] = xs[0];

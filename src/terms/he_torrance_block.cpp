@@ -85,33 +85,25 @@ struct ShortSum {
     return c;
   }();
 
-  /// One strip.
-  template <class Real>
-  [[gnu::always_inline]] static void evaluate(const Real* r, const Real* xs, Real* result) {
-    constexpr std::size_t width = strip<Real>;
-    using Strip = std::array<double, width>;
-    alignas(64) std::array<Strip, n + 1> e;
-    alignas(64) Strip g;
-    alignas(64) Strip x;
-    alignas(64) Strip s;
-    for (std::size_t k = 0; k < width; ++k) {
-      x[k] = static_cast<double>(xs[k]);
-      g[k] = 1.0 / static_cast<double>(r[k]);
-      e[0][k] = exp(Lane<double>(x[k] * (-1.0 / n))).v;
-      e[n / 2][k] = e[0][k];
-      s[k] = coefficients[n];
-    }
-    for (std::size_t j = n - 1; j > 0; --j) {
-      if (j > n / 2) {
-        const double rate = 1.0 / static_cast<double>(n) - 1.0 / static_cast<double>(j);
-        for (std::size_t k = 0; k < width; ++k) e[j][k] = exp(Lane<double>(x[k] * rate)).v;
-      } else if (j < n / 2) {
-        for (std::size_t k = 0; k < width; ++k) e[j][k] = e[2 * j][k] * e[2 * j][k] * e[0][k];
-      }
-      for (std::size_t k = 0; k < width; ++k) s[k] = s[k] * g[k] + coefficients[j] * e[j][k];
-    }
-    for (std::size_t k = 0; k < width; ++k) {
-      result[k] = static_cast<Real>(log(Lane<double>(s[k])).v - g[k] - x[k] * (1.0 / n));
+  /// One lane.
+  [[nodiscard]] [[gnu::always_inline]] static double log_w_over_g(double r, double x) {
+    std::array<double, n + 1> e;
+    const double g = 1.0 / r;
+    e[n / 2] = exp(Lane<double>(x * (-1.0 / n))).v;
+    const double s = add<n - 1>(e, g, x, coefficients[n]);
+    return log(Lane<double>(s)).v - g - x * (1.0 / n);
+  }
+
+ private:
+  /// s g^j + the terms of j and below. A recursion, not a loop: the lanes are to be the innermost one.
+  template <std::size_t j>
+  [[nodiscard]] [[gnu::always_inline]] static double add(std::array<double, n + 1>& e, double g, double x, double s) {
+    if constexpr (j == 0) {
+      return s;
+    } else {
+      if constexpr (j > n / 2) e[j] = exp(Lane<double>(x * (1.0 / n - 1.0 / j))).v;
+      if constexpr (j < n / 2) e[j] = e[2 * j] * e[2 * j] * e[n / 2];
+      return add<j - 1>(e, g, x, s * g + coefficients[j] * e[j]);
     }
   }
 };
@@ -132,7 +124,14 @@ template <class Cell, class Real>
 
 template <std::size_t terms, class Real>
 [[gnu::always_inline]] inline void evaluate_sum(Places<Real>& p, std::size_t n) {
-  for (std::size_t i = 0; i < n; i += strip<Real>) ShortSum<terms>::evaluate(&p.r[i], &p.x[i], &p.result[i]);
+  const Real* const r = p.r.data();
+  const Real* const x = p.x.data();
+  Real* const result = p.result.data();
+  const std::size_t end = padded<Real>(n);
+#pragma GCC ivdep
+  for (std::size_t i = 0; i < end; ++i) {
+    result[i] = static_cast<Real>(ShortSum<terms>::log_w_over_g(static_cast<double>(r[i]), static_cast<double>(x[i])));
+  }
 }
 
 /// What the fine and the coarse tier differ in: regions and their expressions.

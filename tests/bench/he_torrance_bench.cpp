@@ -10,6 +10,7 @@
 #include <random>
 #include <vector>
 
+#include "geometry/angles.h"
 #include "geometry/pair.h"
 #include "terms/effective_roughness.h"
 #include "terms/he_torrance.h"

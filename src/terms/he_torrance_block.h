@@ -1,6 +1,11 @@
 #pragma once
 // Tier `he-torrance`: ln W(g, x) of whole blocks, by vector instructions: see he_torrance_regions.h for how, and
 // he_torrance.h for one value with its derivatives.
+//
+// ns a value at pairs of random directions, rough to smooth samples of Li and Torrance, one core of a 2.6 GHz server:
+// fine 6.6 to 9.1 by AVX-512, 9.3 to 13 by AVX2 (single values 18 to 29, the sum 690 to 1600), coarse 3.4 to 4.7
+// and 5.0 to 6.5, float 2.0 to 3.6 and 3.0 to 4.9. Largest errors: 5.7e-10 (695 numbers), 6.4e-5 (123 numbers),
+// float 5.1e-6.
 
 #include <cstddef>
 #include <cstdint>

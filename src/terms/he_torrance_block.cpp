@@ -193,7 +193,8 @@ struct Coarse {
 
   /// Within 6e-9 of 1/g, Taylor's series to the seventh power: y G(xi) reaches 690.
   [[gnu::always_inline]] static Real inverse(Real log_g) {
-    const auto [t, power] = lane::reduce(lane::clamped(-log_g));
+    constexpr Real reach = std::is_same_v<Real, float> ? Real(80) : Real(700);
+    const auto [t, power] = lane::reduce(lane::at_most(reach, lane::at_least(-reach, -log_g)));
     const Real t2 = t * t;
     const Real low = (Real(1) + t) + t2 * (Real(1.0 / 2) + t * Real(1.0 / 6));
     const Real high = (Real(1.0 / 24) + t * Real(1.0 / 120)) + t2 * (Real(1.0 / 720) + t * Real(1.0 / 5040));

@@ -66,7 +66,10 @@ TYPED_TEST(LaneMath, LogarithmsAreRightToThreeEps) {
 // ln(1 - e^x) from where e^x is lost beside 1 to where 1 - e^x nearly vanishes.
 TYPED_TEST(LaneMath, LogOfOneMinusExp) {
   using Real = TypeParam;
-  const auto f = [](Lane<Real> x) { return log_one_minus_exp(Lane<Real>(-x)); };
+  const auto f = [](Lane<Real> x) {
+    using namespace math;
+    return log_one_minus_exp(Lane<Real>(-x));
+  };
   const auto truth = [](long double x) { return x < 0.69L ? std::log(-std::expm1(-x)) : std::log1p(-std::exp(-x)); };
   EXPECT_LE(worst_eps<Real>(f, truth, 1e-6, 60.0, true), 4.0);
 }

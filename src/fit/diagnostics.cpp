@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <utility>
 
 #include "brdf/evaluator.h"
 #include "brdf/surface_shape.h"
@@ -59,13 +60,17 @@ Region region_of(const Scan& scan, std::size_t row, const Pair& pair) {
 
 class Diagnosis {
  public:
-  Diagnosis(const Scan& scan, const Material& material, const DiagnosticsOptions& options)
-      : scan_(scan), material_(material), options_(options), place_(scan.size(), unused) {
+  Diagnosis(const Scan& scan, const Material& material, DiagnosticsOptions options)
+      : scan_(scan), material_(material), options_(std::move(options)), place_(scan.size(), unused) {
     choose_rows();
-    const Evaluator evaluator(material);
-    fitted_ = evaluator.values(pairs_);
-    open_ = value_uncertainties(material, pairs_, fitted_);
-    for (double& u : open_) u *= open_sds;
+    if (!options_.values) {
+      const Evaluator evaluator(material);
+      std::vector<double> fitted = evaluator.values(own_pairs_);
+      std::vector<double> open = value_uncertainties(material, own_pairs_, fitted);
+      options_.values = FittedValues{&own_pairs_, std::move(fitted), std::move(open)};
+    }
+    for (double& u : options_.values->open) u *= open_sds;
+    place_readings();
     lines_ = detector_lines(scan);
     pairs_of_rows_ = swapped_rows(scan);
   }
@@ -75,6 +80,7 @@ class Diagnosis {
   static constexpr std::size_t unused = static_cast<std::size_t>(-1);
 
   void choose_rows();
+  void place_readings();
   void add_channel(std::size_t c);
   void add_misfit(std::size_t c);
   void add_runs(std::size_t c);
@@ -83,6 +89,7 @@ class Diagnosis {
   void add_regions();
   void add_brightness();
   void add_chi_square();
+  [[nodiscard]] const PairBatch& pairs() const noexcept { return *options_.values->pairs; }
   [[nodiscard]] double noise_floor(std::size_t c) const;
   [[nodiscard]] std::optional<double> reciprocity(std::size_t c) const;
   [[nodiscard]] double value(std::size_t i, std::size_t c) const { return scan_.channels[c].values[rows_[i]]; }
@@ -90,8 +97,12 @@ class Diagnosis {
     return !options_.used || options_.used->left_out.empty() || options_.used->left_out[c].empty() ||
            !options_.used->left_out[c][i];
   }
-  [[nodiscard]] double fitted(std::size_t i, std::size_t c) const { return fitted_[i * scan_.channels.size() + c]; }
-  [[nodiscard]] double open(std::size_t i, std::size_t c) const { return open_[i * scan_.channels.size() + c]; }
+  [[nodiscard]] double fitted(std::size_t i, std::size_t c) const {
+    return options_.values->fitted[i * scan_.channels.size() + c];
+  }
+  [[nodiscard]] double open(std::size_t i, std::size_t c) const {
+    return options_.values->open[i * scan_.channels.size() + c];
+  }
   [[nodiscard]] double floor(std::size_t i, std::size_t c) const {
     const ScanChannel& channel = scan_.channels[c];
     return channel.u.empty() ? out_.channels[c].noise_floor : floor_sds * channel.u[rows_[i]];
@@ -100,11 +111,10 @@ class Diagnosis {
   const Scan& scan_;
   const Material& material_;
   DiagnosticsOptions options_;
-  Rows rows_;   // of the readings used
-  Rows place_;  // of each row of the scan in rows_
-  PairBatch pairs_;
-  std::vector<double> weight_, fitted_;
-  std::vector<double> open_;  // what parameters within their uncertainties change the fitted values by
+  Rows rows_;            // of the readings used
+  Rows place_;           // of each row of the scan in rows_
+  PairBatch own_pairs_;  // where the options have none
+  std::vector<double> weight_;
   std::vector<Region> region_;
   std::vector<Rows> lines_;
   std::vector<SwappedRows> pairs_of_rows_;
@@ -117,13 +127,18 @@ void Diagnosis::choose_rows() {
   for (std::size_t row = 0; row < scan_.size() && !options_.used; ++row) {
     if (std::max(scan_.theta_i_deg[row], scan_.theta_r_deg[row]) < 90.0) rows.push_back(row);
   }
-  for (const std::size_t row : options_.used ? options_.used->rows : rows) {
-    const Pair pair = make_pair(scan_.angles(row));
-    place_[row] = rows_.size();
-    rows_.push_back(row);
-    pairs_.push_back(pair);
+  rows_ = options_.used ? std::move(options_.used->rows) : std::move(rows);
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    place_[rows_[i]] = i;
+    if (!options_.values) own_pairs_.push_back(make_pair(scan_.angles(rows_[i])));
+  }
+}
+
+void Diagnosis::place_readings() {
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const Pair pair = pairs()[i];
     weight_.push_back(has_cosine(options_.weight) ? pair.cos_i : 1.0);
-    region_.push_back(region_of(scan_, row, pair));
+    region_.push_back(region_of(scan_, rows_[i], pair));
   }
 }
 
@@ -182,7 +197,7 @@ void Diagnosis::add_runs(std::size_t c) {
     residuals.clear();
     for (const std::size_t row : line) {
       const std::size_t i = place_[row];
-      if (i == unused || !counts(i, c) || in_mirror_cone(pairs_[i], material_.solid_angle_sr)) continue;
+      if (i == unused || !counts(i, c) || in_mirror_cone(pairs()[i], material_.solid_angle_sr)) continue;
       const double residual = value(i, c) - fitted(i, c);
       if (std::fabs(residual) > open(i, c)) residuals.push_back(residual);
     }
@@ -314,8 +329,8 @@ std::string_view name_of(Region region) noexcept {
 
 double Misfit::typical_factor() const noexcept { return 1.0 / (1.0 - std::min(typical.value_or(0.0), 1.0)); }
 
-FitDiagnostics diagnose(const Scan& scan, const Material& material, const DiagnosticsOptions& options) {
-  return Diagnosis(scan, material, options).result();
+FitDiagnostics diagnose(const Scan& scan, const Material& material, DiagnosticsOptions options) {
+  return Diagnosis(scan, material, std::move(options)).result();
 }
 
 }  // namespace goniofit

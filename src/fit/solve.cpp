@@ -13,8 +13,8 @@ namespace goniofit {
 
 namespace {
 
-double suitable_scale(const Problem& problem, const FitPoint& point, RobustKernel kernel) {
-  const Linearisation l = linearise(problem, point);
+double suitable_scale(const Problem& problem, Model& model, const FitPoint& point, RobustKernel kernel) {
+  const Linearisation l = linearise(problem, model, point);
   std::vector<double> sizes;
   for (std::size_t c = 0; c < l.residuals.size(); ++c) {
     const Eigen::VectorXd& used = problem.channels[c].used;
@@ -32,12 +32,17 @@ double suitable_scale(const Problem& problem, const FitPoint& point, RobustKerne
 }  // namespace
 
 Solved solve(const Problem& problem, double tolerance) {
+  Model model(problem);
+  return solve(problem, model, tolerance);
+}
+
+Solved solve(const Problem& problem, Model& model, double tolerance) {
   const SearchOutcome found = search(problem);
   Solved solved;
   solved.evaluations = found.evaluations;
   solved.starts = found.minima.size();
   for (const FitPoint& minimum : found.minima) {
-    Polished polished = polish(problem, minimum, tolerance);
+    Polished polished = polish(problem, model, minimum, tolerance);
     solved.iterations += polished.iterations;
     if (&minimum == &found.minima.front() || polished.point.loss < solved.best.point.loss) {
       solved.best = std::move(polished);
@@ -46,17 +51,17 @@ Solved solve(const Problem& problem, double tolerance) {
   return solved;
 }
 
-Solved solve(Problem& problem, const FitSettings& settings) {
+Solved solve(Problem& problem, Model& model, const FitSettings& settings) {
   if (settings.robust_scale && !(*settings.robust_scale > 0.0))
     throw usage_error("robust scale: expected a number above 0");
-  if (settings.robust == RobustKernel::none) return solve(problem);
-  const Solved plain = solve(problem);
-  const double scale =
-      settings.robust_scale ? *settings.robust_scale : suitable_scale(problem, plain.best.point, settings.robust);
+  if (settings.robust == RobustKernel::none) return solve(problem, model);
+  const Solved plain = solve(problem, model);
+  const double scale = settings.robust_scale ? *settings.robust_scale
+                                             : suitable_scale(problem, model, plain.best.point, settings.robust);
   problem.make_robust(RobustLoss(settings.robust, scale));
-  Solved robust = solve(problem);
+  Solved robust = solve(problem, model);
   // A scale far below the residuals of a coarse grid flattens all of it: there the plain minimum is the better start.
-  Polished from_plain = polish(problem, plain.best.point);
+  Polished from_plain = polish(problem, model, plain.best.point);
   robust.iterations += from_plain.iterations;
   ++robust.starts;
   if (from_plain.point.loss < robust.best.point.loss) robust.best = std::move(from_plain);

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
+#include <span>
 #include <utility>
 
 #include "brdf/evaluator.h"
@@ -10,6 +10,7 @@
 #include "fit/fit_spread.h"
 #include "fit/loss.h"
 #include "fit/noise_model.h"
+#include "fit/order_statistics.h"
 #include "fit/verdict.h"
 #include "geometry/angles.h"
 #include "scan/arrangement.h"
@@ -52,9 +53,17 @@ struct Sums {
 
 double quotient(double part, double whole) { return whole > 0.0 ? part / whole : 0.0; }
 
+// Whether directions are as near as near_deg, by their squared chord: the angle itself takes an arcsine, and is asked
+// for on the edge alone.
+bool is_near(double chord2, double (*angle_deg)(const Pair&), const Pair& pair) {
+  static const double edge = std::pow(2.0 * sin_deg(0.5 * near_deg), 2);
+  if (std::fabs(chord2 - edge) > 1e-9 * edge) return chord2 < edge;
+  return angle_deg(pair) <= near_deg;
+}
+
 Region region_of(const Scan& scan, std::size_t row, const Pair& pair) {
-  if (from_mirror_deg(pair) <= near_deg) return Region::mirror;
-  if (from_retro_deg(pair) <= near_deg) return Region::retro;
+  if (is_near(pair.mirror_distance2, from_mirror_deg, pair)) return Region::mirror;
+  if (is_near(4.0 * pair.one_minus_cos_h * (1.0 + pair.cos_h), from_retro_deg, pair)) return Region::retro;
   return scan.theta_r_deg[row] > grazing_deg && pair.forward ? Region::forward_grazing : Region::elsewhere;
 }
 
@@ -72,6 +81,8 @@ class Diagnosis {
     for (double& u : options_.values->open) u *= open_sds;
     place_readings();
     lines_ = detector_lines(scan);
+    for (std::size_t row = 0; row < scan.size(); ++row)
+      signed_theta_r_.push_back(delta_phi_deg(scan, row) > 0.0 ? scan.theta_r_deg[row] : -scan.theta_r_deg[row]);
     pairs_of_rows_ = swapped_rows(scan);
   }
   [[nodiscard]] FitDiagnostics result();
@@ -116,8 +127,9 @@ class Diagnosis {
   PairBatch own_pairs_;  // where the options have none
   std::vector<double> weight_;
   std::vector<Region> region_;
-  std::vector<Rows> lines_;
-  std::vector<SwappedRows> pairs_of_rows_;
+  std::vector<double> signed_theta_r_;  // by row of the scan
+  RowGroups lines_;
+  SwappedRows pairs_of_rows_;
   std::array<Sums, region_count> by_region_;
   FitDiagnostics out_;
 };
@@ -149,16 +161,13 @@ double Diagnosis::noise_floor(std::size_t c) const {
   std::vector<double> sizes;
   for (std::size_t i = 0; i < rows_.size(); ++i) sizes.push_back(std::fabs(value(i, c)));
   if (sizes.empty()) return 0.0;
-  const auto quarter = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 4);
-  std::nth_element(sizes.begin(), quarter, sizes.end());
-  const double dark = *quarter;
+  const double dark = value_at_rank(sizes, sizes.size() / 4);
   const std::vector<double>& values = scan_.channels[c].values;
   std::vector<double> differences;
-  for (const Rows& line : lines_) {
+  for (std::size_t l = 0; l < lines_.size(); ++l) {
+    const std::span<const std::size_t> line = lines_[l];
     for (std::size_t j = 1; j + 1 < line.size(); ++j) {
-      const auto at = [&](std::size_t k) {
-        return delta_phi_deg(scan_, line[k]) > 0.0 ? scan_.theta_r_deg[line[k]] : -scan_.theta_r_deg[line[k]];
-      };
+      const auto at = [&](std::size_t k) { return signed_theta_r_[line[k]]; };
       if (std::fabs(values[line[j]]) > dark || !(at(j + 1) > at(j - 1))) continue;
       const double t = (at(j) - at(j - 1)) / (at(j + 1) - at(j - 1));
       const double off = values[line[j]] - (1.0 - t) * values[line[j - 1]] - t * values[line[j + 1]];
@@ -193,9 +202,9 @@ void Diagnosis::add_misfit(std::size_t c) {
 
 void Diagnosis::add_runs(std::size_t c) {
   std::vector<double> residuals;
-  for (const Rows& line : lines_) {
+  for (std::size_t l = 0; l < lines_.size(); ++l) {
     residuals.clear();
-    for (const std::size_t row : line) {
+    for (const std::size_t row : lines_[l]) {
       const std::size_t i = place_[row];
       if (i == unused || !counts(i, c) || in_mirror_cone(pairs()[i], material_.solid_angle_sr)) continue;
       const double residual = value(i, c) - fitted(i, c);
@@ -220,9 +229,11 @@ void Diagnosis::add_noise(std::size_t c) {
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     if (!counts(i, c)) continue;
     const double size = std::fabs(value(i, c) - fitted(i, c));
-    const double sds = quotient(size, noise.sd(fitted(i, c)));
     const double larger = std::max(std::fabs(value(i, c)), fitted(i, c));
-    if (sds <= outlier_sds || size <= negligible_misfit * larger) continue;
+    const double relative = noise.relative * fitted(i, c);
+    const double variance = relative * relative + noise.additive * noise.additive;
+    if (size * size <= outlier_sds * outlier_sds * variance || size <= negligible_misfit * larger) continue;
+    const double sds = quotient(size, noise.sd(fitted(i, c)));
     ++out_.outlier_count;
     out_.outliers.push_back({rows_[i], c, value(i, c), fitted(i, c), sds});
   }
@@ -266,19 +277,15 @@ void Diagnosis::add_regions() {
 void Diagnosis::add_brightness() {
   std::vector<double> squares;
   std::vector<double> positive;
-  double total = 0.0;
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     for (std::size_t c = 0; c < scan_.channels.size(); ++c) {
       if (!counts(i, c)) continue;
       squares.push_back(weight_[i] * value(i, c) * value(i, c));
-      total += squares.back();
       if (value(i, c) > 0.0) positive.push_back(value(i, c));
     }
   }
   out_.readings = squares.size();
-  std::sort(squares.begin(), squares.end(), std::greater<>());
-  double sum = 0.0;
-  while (out_.brightest < squares.size() && sum < 0.9 * total) sum += squares[out_.brightest++];
+  out_.brightest = count_of_largest(squares, 0.9);
   if (positive.empty()) return;
   out_.brightness_range = *std::max_element(positive.begin(), positive.end()) / median_of(positive);
 }

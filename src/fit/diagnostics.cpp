@@ -29,26 +29,24 @@ constexpr double open_sds = 3.0;
 // Sums that a misfit is made of.
 struct Sums {
   double r2 = 0.0, f2 = 0.0, r = 0.0, f = 0.0, signed_r2 = 0.0;
-  std::vector<double> parts;  // |r| / max(|f|, |model|) above the noise
 
-  void add(double weight, double value, double fitted, double floor, double open) {
-    const double residual = value - fitted;
+  void add(double weight, double value, double residual) {
     r2 += weight * residual * residual;
     signed_r2 += weight * residual * std::fabs(residual);
     f2 += weight * value * value;
     r += weight * std::fabs(residual);
     f += weight * std::fabs(value);
-    const double larger = std::max(std::fabs(value), std::fabs(fitted));
-    if (larger > floor) parts.push_back(std::max(0.0, std::fabs(residual) - open) / larger);
   }
   void add(const Sums& other) {
     r2 += other.r2, f2 += other.f2, r += other.r, f += other.f, signed_r2 += other.signed_r2;
-    parts.insert(parts.end(), other.parts.begin(), other.parts.end());
   }
-  [[nodiscard]] std::optional<double> typical() {
+  /// `parts`: |r| / max(|f|, |model|) above the noise.
+  [[nodiscard]] Misfit misfit(std::vector<double>& parts) const {
+    return {f2 > 0.0 ? std::sqrt(r2 / f2) : 0.0, f > 0.0 ? r / f : 0.0, typical(parts)};
+  }
+  [[nodiscard]] static std::optional<double> typical(std::vector<double>& parts) {
     return parts.empty() ? std::nullopt : std::optional(median_of(parts));
   }
-  [[nodiscard]] Misfit misfit() { return {f2 > 0.0 ? std::sqrt(r2 / f2) : 0.0, f > 0.0 ? r / f : 0.0, typical()}; }
 };
 
 double quotient(double part, double whole) { return whole > 0.0 ? part / whole : 0.0; }
@@ -131,6 +129,7 @@ class Diagnosis {
   RowGroups lines_;
   SwappedRows pairs_of_rows_;
   std::array<Sums, region_count> by_region_;
+  std::array<std::vector<double>, region_count> parts_;  // of every channel: see Sums::misfit
   FitDiagnostics out_;
 };
 
@@ -188,16 +187,24 @@ std::optional<double> Diagnosis::reciprocity(std::size_t c) const {
 
 void Diagnosis::add_misfit(std::size_t c) {
   std::array<Sums, region_count> regions;
+  std::array<std::ptrdiff_t, region_count> before{};
+  for (std::size_t k = 0; k < region_count; ++k) before[k] = std::ssize(parts_[k]);
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     if (!counts(i, c)) continue;
-    regions[static_cast<std::size_t>(region_[i])].add(weight_[i], value(i, c), fitted(i, c), floor(i, c), open(i, c));
+    const auto region = static_cast<std::size_t>(region_[i]);
+    const double residual = value(i, c) - fitted(i, c);
+    regions[region].add(weight_[i], value(i, c), residual);
+    const double larger = std::max(std::fabs(value(i, c)), std::fabs(fitted(i, c)));
+    if (larger > floor(i, c)) parts_[region].push_back(std::max(0.0, std::fabs(residual) - open(i, c)) / larger);
   }
   Sums channel;
+  std::vector<double> parts;
   for (std::size_t k = 0; k < region_count; ++k) {
     channel.add(regions[k]);
     by_region_[k].add(regions[k]);
+    parts.insert(parts.end(), parts_[k].begin() + before[k], parts_[k].end());
   }
-  out_.channels[c].misfit = channel.misfit();
+  out_.channels[c].misfit = channel.misfit(parts);
 }
 
 void Diagnosis::add_runs(std::size_t c) {
@@ -262,16 +269,19 @@ void Diagnosis::add_channel(std::size_t c) {
 void Diagnosis::add_regions() {
   Sums all;
   for (const Sums& sums : by_region_) all.add(sums);
-  out_.misfit = all.misfit();
   for (const Region region : region_) ++out_.regions[static_cast<std::size_t>(region)].readings;
+  std::vector<double> all_parts;
   for (std::size_t k = 0; k < region_count; ++k) {
-    Sums& sums = by_region_[k];
+    const Sums& sums = by_region_[k];
     RegionMisfit& to = out_.regions[k];
     to.of_misfit = quotient(sums.r2, all.r2);
     to.of_signal = quotient(sums.f2, all.f2);
     to.excess = quotient(sums.signed_r2, sums.r2);
-    to.typical = sums.typical();
+    to.typical = Sums::typical(parts_[k]);
+    all_parts.insert(all_parts.end(), parts_[k].begin(), parts_[k].end());
+    parts_[k] = {};
   }
+  out_.misfit = all.misfit(all_parts);
 }
 
 void Diagnosis::add_brightness() {

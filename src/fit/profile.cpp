@@ -55,10 +55,11 @@ void accumulate(const Eigen::MatrixXd& a, const double* target, SmallMatrix* gra
 
 }  // namespace
 
-Profile::Profile(const Problem& problem)
+Profile::Profile(const Problem& problem, RowSelection selection)
     : problem_(problem),
       columns_(problem.basis->columns().size()),
       solver_(*problem.basis),
+      selection_(std::move(selection)),
       emphasised_(is_transformed(problem.loss)) {
   for (const ProblemChannel& c : problem.channels) emphasised_ = emphasised_ || c.emphasis.size() > 0;
   divide();
@@ -72,11 +73,16 @@ Profile::Profile(const Problem& problem)
 void Profile::divide() {
   const bool all_late = !problem_.quadratic();
   std::size_t point = 0;
+  std::size_t selected = 0;
   for (std::size_t row = 0; row < problem_.samples(); ++row) {
-    // A sum of points is divided no further.
-    const bool late = all_late || (problem_.basis->has_length() &&
-                                   (row >= problem_.readings() || problem_.basis->reads_length(problem_.pairs[row])));
-    take(row, point, late ? late_ : early_);
+    const bool skipped = !selection_.all() && (selected == selection_.rows.size() || selection_.rows[selected] != row);
+    if (!skipped) {
+      // A sum of points is divided no further.
+      const bool late = all_late || (problem_.basis->has_length() &&
+                                     (row >= problem_.readings() || problem_.basis->reads_length(problem_.pairs[row])));
+      take(row, point, selection_.all() ? 1.0 : selection_.factor[selected], late ? late_ : early_);
+      ++selected;
+    }
     point += problem_.sums.points(row);
   }
   sort_by_onset();
@@ -84,6 +90,8 @@ void Profile::divide() {
   late_.pairs = problem_.pairs.subset(late_.points);
   for (Part* const part : {&early_, &late_}) {
     part->point_weight = problem_.point_weight(std::vector<Eigen::Index>(part->points.begin(), part->points.end()));
+    for (std::size_t i = 0; i < part->rows.size() && part->rows[i] < problem_.readings(); ++i)
+      part->point_weight[static_cast<Eigen::Index>(i)] *= part->factor[i];
     fill(*part);
   }
 }
@@ -92,12 +100,21 @@ void Profile::divide() {
 void Profile::sort_by_onset() {
   std::vector<std::size_t>& points = early_.points;
   if (!early_.sums.none()) return;
-  std::vector<std::pair<double, std::size_t>> onsets;
+  struct Onset {
+    double z;
+    std::size_t row;
+    double factor;
+  };
+  std::vector<Onset> onsets;
   onsets.reserve(points.size());
-  for (const std::size_t point : points) onsets.emplace_back(problem_.basis->onset(problem_.pairs[point]), point);
-  std::sort(onsets.begin(), onsets.end());
-  for (std::size_t i = 0; i < points.size(); ++i) points[i] = onsets[i].second;
-  early_.rows = points;  // a point a row, counted alike
+  for (std::size_t i = 0; i < points.size(); ++i)
+    onsets.push_back({problem_.basis->onset(problem_.pairs[points[i]]), points[i], early_.factor[i]});
+  std::sort(onsets.begin(), onsets.end(),
+            [](const Onset& a, const Onset& b) { return a.z < b.z || (a.z == b.z && a.row < b.row); });
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    points[i] = early_.rows[i] = onsets[i].row;  // a point a row, counted alike
+    early_.factor[i] = onsets[i].factor;
+  }
 }
 
 void Profile::cut_into_blocks() {
@@ -115,13 +132,14 @@ void Profile::cut_into_blocks() {
   }
 }
 
-void Profile::take(std::size_t row, std::size_t first_point, Part& part) const {
+void Profile::take(std::size_t row, std::size_t first_point, double factor, Part& part) const {
   if (row < problem_.readings()) {
     part.sums = RowSums(part.rows.size() + 1);
   } else {
     part.sums.add(problem_.sums.points(row));
   }
   part.rows.push_back(row);
+  part.factor.push_back(factor);
   for (std::size_t i = 0; i < problem_.sums.points(row); ++i) part.points.push_back(first_point + i);
 }
 
@@ -135,7 +153,7 @@ void Profile::fill(Part& part) const {
     for (std::size_t i = 0; i < part.rows.size(); ++i) {
       const auto to = static_cast<Eigen::Index>(i);
       const auto from = static_cast<Eigen::Index>(part.rows[i]);
-      target[to] = c.target[from];
+      target[to] = part.factor[i] * c.target[from];
       if (!emphasised_) continue;
       emphasis[to] = (c.emphasis.size() > 0 ? c.emphasis[from] : 1.0) * transformed(problem_.loss, c.value[from]).slope;
       target[to] *= emphasis[to];

@@ -8,12 +8,14 @@
 #include "coefficient_solve.h"
 #include "problem.h"
 #include "search.h"
+#include "thinning.h"
 
 namespace goniofit {
 
 class Profile {
  public:
-  explicit Profile(const Problem& problem);
+  /// Over the rows selected.
+  explicit Profile(const Problem& problem, RowSelection selection = {});
 
   /// The profile at z (problem.shape.free values). Work that depends on z[0] alone is kept from the call before.
   [[nodiscard]] double loss(const double* z);
@@ -28,6 +30,7 @@ class Profile {
     Eigen::VectorXd point_weight;
     RowSums sums;
     std::vector<std::size_t> points, rows;  ///< of the problem
+    std::vector<double> factor;             ///< of each row
     std::vector<Eigen::VectorXd> target;    ///< one a channel; with its emphasis
     std::vector<Eigen::VectorXd> emphasis;  ///< likewise; empty where it is 1 throughout
   };
@@ -58,7 +61,7 @@ class Profile {
   };
 
   void divide();
-  void take(std::size_t row, std::size_t first_point, Part& part) const;
+  void take(std::size_t row, std::size_t first_point, double factor, Part& part) const;
   void fill(Part& part) const;
   void sort_by_onset();
   void cut_into_blocks();
@@ -77,6 +80,7 @@ class Profile {
   const Problem& problem_;
   std::size_t columns_;
   CoefficientSolver solver_;
+  RowSelection selection_;
   // Rows whose factors do not read the length come first ("early"); those that do ("late") are few, or all of them.
   // Where the loss is not quadratic no equations are kept, and all rows are late, in the problem's order.
   // Early rows stand in the order of their onsets, where the basis knows these.

@@ -29,15 +29,7 @@ double suitable_scale(const Problem& problem, Model& model, const FitPoint& poin
   return RobustLoss::tuning(kernel) * std::max({1.4826022185056018 * *middle, round_off, 1e-300});
 }
 
-}  // namespace
-
-Solved solve(const Problem& problem, double tolerance) {
-  Model model(problem);
-  return solve(problem, model, tolerance);
-}
-
-Solved solve(const Problem& problem, Model& model, double tolerance) {
-  const SearchOutcome found = search(problem);
+Solved polish_all(const Problem& problem, Model& model, const SearchOutcome& found, double tolerance) {
   Solved solved;
   solved.evaluations = found.evaluations;
   solved.starts = found.minima.size();
@@ -48,6 +40,40 @@ Solved solve(const Problem& problem, Model& model, double tolerance) {
       solved.best = std::move(polished);
     }
   }
+  return solved;
+}
+
+// Whether all readings agree with those that were searched: the minimum lies where some dip was, to much less than dips
+// are apart, and its loss is what was estimated there.
+bool confirms(const Solved& solved, const SearchOutcome& found) {
+  constexpr double apart = 0.1;
+  constexpr double estimated = 0.3;
+  const FitPoint& best = solved.best.point;
+  if (!solved.best.converged) return false;
+  return std::any_of(found.minima.begin(), found.minima.end(), [&](const FitPoint& dip) {
+    double distance = 0.0;
+    for (std::size_t i = 0; i < dip.z.size(); ++i) distance = std::max(distance, std::fabs(dip.z[i] - best.z[i]));
+    return distance < apart && std::fabs(dip.loss - best.loss) <= estimated * best.loss;
+  });
+}
+
+}  // namespace
+
+Solved solve(const Problem& problem, double tolerance) {
+  Model model(problem);
+  return solve(problem, model, tolerance);
+}
+
+Solved solve(const Problem& problem, Model& model, double tolerance) {
+  const SearchOutcome some = search(problem);
+  Solved solved = polish_all(problem, model, some, tolerance);
+  if (!some.thinned || confirms(solved, some)) return solved;
+  const SearchOutcome all = search(problem, some.minima.size(), true);
+  const std::size_t evaluations = solved.evaluations;
+  const std::size_t iterations = solved.iterations;
+  solved = polish_all(problem, model, all, tolerance);
+  solved.evaluations += evaluations;
+  solved.iterations += iterations;
   return solved;
 }
 

@@ -92,7 +92,7 @@ class Diagnosis {
   void place_readings();
   void add_channel(std::size_t c);
   void add_misfit(std::size_t c);
-  void add_runs(std::size_t c);
+  void add_runs();
   void add_noise(std::size_t c);
   void add_counts(std::size_t c);
   void add_regions();
@@ -207,17 +207,20 @@ void Diagnosis::add_misfit(std::size_t c) {
   out_.channels[c].misfit = channel.misfit(parts);
 }
 
-void Diagnosis::add_runs(std::size_t c) {
-  std::vector<double> residuals;
+// All channels along one way through the scan, which is no way through memory.
+void Diagnosis::add_runs() {
+  std::vector<std::vector<double>> residuals(out_.channels.size());
   for (std::size_t l = 0; l < lines_.size(); ++l) {
-    residuals.clear();
+    for (std::vector<double>& own : residuals) own.clear();
     for (const std::size_t row : lines_[l]) {
       const std::size_t i = place_[row];
-      if (i == unused || !counts(i, c) || in_mirror_cone(pairs()[i], material_.solid_angle_sr)) continue;
-      const double residual = value(i, c) - fitted(i, c);
-      if (std::fabs(residual) > open(i, c)) residuals.push_back(residual);
+      if (i == unused || pairs().mirror_distance2[i] <= material_.solid_angle_sr / pi) continue;
+      for (std::size_t c = 0; c < residuals.size(); ++c) {
+        const double residual = value(i, c) - fitted(i, c);
+        if (counts(i, c) && std::fabs(residual) > open(i, c)) residuals[c].push_back(residual);
+      }
     }
-    out_.channels[c].runs.add_line(residuals);
+    for (std::size_t c = 0; c < residuals.size(); ++c) out_.channels[c].runs.add_line(residuals[c]);
   }
 }
 
@@ -261,7 +264,6 @@ void Diagnosis::add_channel(std::size_t c) {
   channel.noise_floor = noise_floor(c);
   channel.reciprocity = reciprocity(c);
   add_misfit(c);
-  add_runs(c);
   add_noise(c);
   add_counts(c);
 }
@@ -269,7 +271,6 @@ void Diagnosis::add_channel(std::size_t c) {
 void Diagnosis::add_regions() {
   Sums all;
   for (const Sums& sums : by_region_) all.add(sums);
-  for (const Region region : region_) ++out_.regions[static_cast<std::size_t>(region)].readings;
   std::vector<double> all_parts;
   for (std::size_t k = 0; k < region_count; ++k) {
     const Sums& sums = by_region_[k];
@@ -316,7 +317,10 @@ void Diagnosis::add_chi_square() {
 
 FitDiagnostics Diagnosis::result() {
   out_.channels.resize(scan_.channels.size());
+  for (const Region region : region_) ++out_.regions[static_cast<std::size_t>(region)].readings;
+  for (std::size_t k = 0; k < region_count; ++k) parts_[k].reserve(out_.regions[k].readings * scan_.channels.size());
   for (std::size_t c = 0; c < scan_.channels.size(); ++c) add_channel(c);
+  add_runs();
   add_regions();
   add_brightness();
   add_chi_square();

@@ -62,6 +62,22 @@ GONIOFIT_CLONES void add_products(const double* const* columns, std::size_t coun
   for (std::size_t k = 0; k < partial.size(); ++k) out[k] += total(partial[k]);
 }
 
+GONIOFIT_CLONES void add_weighted_products(const double* const* columns, std::size_t count, const double* weight,
+                                           std::size_t n, double* out) {
+  std::vector<Lanes> partial(count * (count + 1) / 2, Lanes{});
+  std::array<double, rows_at_once> weighted;
+  for (std::size_t first = 0; first < n; first += rows_at_once) {
+    const std::size_t rows = std::min(rows_at_once, n - first);
+    Lanes* to = partial.data();
+    for (std::size_t b = 0; b < count; ++b) {
+      const double* const column = columns[b] + first;
+      for (std::size_t i = 0; i < rows; ++i) weighted[i] = weight[first + i] * column[i];
+      for (std::size_t a = 0; a <= b; ++a) add_lanes(columns[a] + first, weighted.data(), rows, *to++);
+    }
+  }
+  for (std::size_t k = 0; k < partial.size(); ++k) out[k] += total(partial[k]);
+}
+
 GONIOFIT_CLONES void add_products_with(const double* const* columns, std::size_t count, const double* with,
                                        std::size_t n, double* out) noexcept {
   for (std::size_t a = 0; a < count; ++a) {

@@ -14,6 +14,9 @@ void multiply(const double* a, const double* b, double* out, std::size_t n) noex
 /// out[b (b + 1) / 2 + a] += dot(columns[a], columns[b]) for all a <= b < count: in one pass over the rows, so that
 /// they are read from memory once.
 void add_products(const double* const* columns, std::size_t count, std::size_t n, double* out);
+/// The same of sum weight[i] columns[a][i] columns[b][i].
+void add_weighted_products(const double* const* columns, std::size_t count, const double* weight, std::size_t n,
+                           double* out);
 /// out[a] += dot(columns[a], with).
 void add_products_with(const double* const* columns, std::size_t count, const double* with, std::size_t n,
                        double* out) noexcept;

@@ -119,19 +119,16 @@ Eigen::VectorXd JointJacobian::variances_by(std::size_t channel, const Eigen::Ma
 
 Eigen::MatrixXd JointJacobian::rough_meat(const std::vector<Eigen::VectorXd>& variance) const {
   Eigen::MatrixXd out = Eigen::MatrixXd::Zero(size(), size());
-  Eigen::MatrixXd weighted;
   for (std::size_t c = 0; c < blocks_.size(); ++c) {
     const Eigen::MatrixXd& jacobian = blocks_[c].jacobian;
-    const auto rows = static_cast<std::size_t>(jacobian.rows());
     const std::vector<const double*> columns = columns_of(jacobian);
+    std::vector<double> packed(columns.size() * (columns.size() + 1) / 2, 0.0);
+    add_weighted_products(columns.data(), columns.size(), variance[c].data(), static_cast<std::size_t>(jacobian.rows()),
+                          packed.data());
     Eigen::MatrixXd products(jacobian.cols(), jacobian.cols());
-    weighted.resize(jacobian.rows(), 1);
+    const double* from = packed.data();
     for (Eigen::Index p = 0; p < jacobian.cols(); ++p) {
-      multiply(variance[c].data(), jacobian.col(p).data(), weighted.data(), rows);
-      const auto count = static_cast<std::size_t>(p) + 1;
-      products.col(p).head(p + 1).setZero();
-      add_products_with(columns.data(), count, weighted.data(), rows, products.col(p).data());
-      products.row(p).head(p) = products.col(p).head(p).transpose();
+      for (Eigen::Index q = 0; q <= p; ++q) products(q, p) = products(p, q) = *from++;
     }
     const Eigen::MatrixXd own = own_root(c);
     out.noalias() += own.transpose() * (products * own);

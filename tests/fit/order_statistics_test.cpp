@@ -88,6 +88,14 @@ TEST(Products, AreDotProducts) {
     std::vector<double> with(3, 1.0);
     add_products(pointers.data(), 3, n, all.data());
     add_products_with(pointers.data(), 3, pointers[1], n, with.data());
+    std::vector<double> weighted(6, 1.0);
+    std::vector<double> product(n);
+    add_weighted_products(pointers.data(), 3, pointers[2], n, weighted.data());
+    for (std::size_t b = 0, k = 0; b < 3; ++b) {
+      multiply(pointers[b], pointers[2], product.data(), n);
+      for (std::size_t a = 0; a <= b; ++a, ++k)
+        EXPECT_NEAR(weighted[k], 1.0 + dot(pointers[a], product.data(), n), 1e-10);
+    }
     const std::vector<double> matrix{1.0, 2.0, -1.0, 0.5, 0.0, 3.0};  // 3 x 2
     std::vector<double> norms(n, 1.0);
     add_squared_norms(pointers.data(), 3, matrix.data(), 2, n, norms.data());

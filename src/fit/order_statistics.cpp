@@ -5,6 +5,8 @@
 #include <functional>
 #include <numeric>
 
+#include "fit/clones.h"
+
 namespace goniofit {
 
 namespace {
@@ -25,6 +27,20 @@ Bracket bracket_of(const std::vector<double>& values, std::size_t rank) {
   return {sample[at < margin ? 0 : at - margin], sample[std::min(at + margin, sampled - 1)]};
 }
 
+struct Counts {
+  std::size_t below, inside;
+};
+
+GONIOFIT_CLONES Counts count(const double* values, std::size_t n, Bracket bracket) noexcept {
+  std::size_t below = 0;
+  std::size_t not_above = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    below += values[i] < bracket.low ? 1 : 0;
+    not_above += values[i] <= bracket.high ? 1 : 0;
+  }
+  return {below, not_above - below};
+}
+
 }  // namespace
 
 // Of the values only those of a bracket about the rank are sorted out, without a branch that nobody can predict.
@@ -36,18 +52,13 @@ double value_at_rank(std::vector<double>& values, std::size_t rank) {
   };
   if (values.size() < 4 * sampled) return nth(values, rank);
   const Bracket bracket = bracket_of(values, rank);
-  std::size_t below = 0;
-  std::size_t inside = 0;
-  for (const double v : values) {
-    below += v < bracket.low ? 1 : 0;
-    inside += v >= bracket.low && v <= bracket.high ? 1 : 0;
-  }
+  const auto [below, inside] = count(values.data(), values.size(), bracket);
   if (rank < below || rank >= below + inside) return nth(values, rank);
   std::vector<double> middle(inside + 1);
-  std::size_t count = 0;
+  std::size_t place = 0;
   for (const double v : values) {
-    middle[count] = v;
-    count += v >= bracket.low && v <= bracket.high ? 1 : 0;
+    middle[place] = v;
+    place += v >= bracket.low && v <= bracket.high ? 1 : 0;
   }
   middle.pop_back();
   return nth(middle, rank - below);

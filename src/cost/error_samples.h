@@ -13,8 +13,8 @@
 namespace goniofit {
 
 struct ErrorSettings {
-  std::size_t incidences = 17;   ///< even steps over the domain, both ends among them (one: its middle)
-  std::size_t directions = 512;  ///< drawn for each; those that fall outside the domain are left out
+  std::size_t incidences = 17;    ///< even steps over the domain, both ends among them (one: its middle)
+  std::size_t directions = 512;   ///< drawn for each; those that fall outside the domain are left out
   bool random_incidence = false;  ///< incidence angles uniformly random in as many equal strata instead
   std::uint64_t seed = 1;
 };

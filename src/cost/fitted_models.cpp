@@ -2,41 +2,37 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <utility>
 
 #include "cost/error_samples.h"
-#include "cost/reference.h"
 #include "fit/fit.h"
 #include "geometry/angles.h"
-#include "fit/loss.h"
+#include "peers/peers.h"
 
 namespace goniofit {
 
 namespace {
 
-constexpr ErrorSettings fitted_directions{.incidences = 9, .directions = 192};
+constexpr ErrorSettings fitted_directions{.incidences = 9, .directions = 128};
+// Of the mean residual: from here on a residual counts linearly.
+constexpr double linear_from = 0.1;
 
-// Sum of |f - measured| over that of measured: the readings are the directions that errors are measured in.
-double l1_of(const Material& m, const Scan& scan) {
-  DirectionBatch directions;
-  for (std::size_t row = 0; row < scan.size(); ++row) {
-    const AnglePair a = scan.angles(row);
-    directions.push_back(direction_of(a.theta_i_deg, a.phi_i_deg), direction_of(a.theta_r_deg, a.phi_r_deg));
+void add_direction(Scan& scan, const DirectionBatch& d, std::size_t i) {
+  const AnglePair a = angles_of({d.l_x[i], d.l_y[i], d.l_z[i]}, {d.v_x[i], d.v_y[i], d.v_z[i]});
+  scan.theta_i_deg.push_back(a.theta_i_deg);
+  scan.phi_i_deg.push_back(a.phi_i_deg);
+  scan.theta_r_deg.push_back(a.theta_r_deg);
+  scan.phi_r_deg.push_back(a.phi_r_deg);
+}
+
+std::vector<std::size_t> outside_cones(const ErrorSamples& s) {
+  std::vector<std::size_t> rows;
+  const DirectionBatch& d = s.directions;
+  for (std::size_t i = 0; i < d.size(); ++i) {
+    const double cos_mirror = d.l_z[i] * d.v_z[i] - d.l_x[i] * d.v_x[i] - d.l_y[i] * d.v_y[i];
+    if (2.0 * pi * (1.0 - cos_mirror) > s.solid_angle_sr) rows.push_back(i);
   }
-  const BatchEvaluator<double> kernel(m);
-  std::vector<double> f(kernel.channels() * scan.size());
-  kernel.values(directions, std::span<double>(f));
-  double difference = 0.0;
-  double sum = 0.0;
-  for (std::size_t c = 0; c < scan.channels.size(); ++c) {
-    for (std::size_t row = 0; row < scan.size(); ++row) {
-      const double measured = scan.channels[c].values[row];
-      const double weight = std::cos(radians(scan.theta_r_deg[row]));
-      difference += weight * std::fabs(f[c * scan.size() + row] - measured);
-      sum += weight * measured;
-    }
-  }
-  return difference / sum;
+  return rows;
 }
 
 }  // namespace
@@ -44,52 +40,69 @@ double l1_of(const Material& m, const Scan& scan) {
 Scan reference_scan(const Material& reference, std::uint64_t seed) {
   ErrorSettings settings = fitted_directions;
   settings.seed = seed;
-  const ErrorSamples samples = error_samples(reference, {}, settings);
+  const ErrorSamples s = error_samples(reference, {}, settings);
   const Candidate exact{.name = "reference", .material = reference};
-  const ModelValues values = model_values(exact, samples);
+  const ModelValues values = model_values(exact, s);
+  const std::vector<std::size_t> rows = outside_cones(s);
+  const std::size_t mirrors = s.mirrors.size();
   Scan scan;
   scan.name = reference.name;
   scan.source = "values of " + reference.name;
-  const DirectionBatch& d = samples.directions;
-  for (std::size_t i = 0; i < d.size(); ++i) {
-    const AnglePair a = angles_of({d.l_x[i], d.l_y[i], d.l_z[i]}, {d.v_x[i], d.v_y[i], d.v_z[i]});
-    scan.theta_i_deg.push_back(a.theta_i_deg);
-    scan.phi_i_deg.push_back(a.phi_i_deg);
-    scan.theta_r_deg.push_back(a.theta_r_deg);
-    scan.phi_r_deg.push_back(a.phi_r_deg);
-  }
+  scan.solid_angle_sr = s.solid_angle_sr;
+  for (const std::size_t i : rows) add_direction(scan, s.directions, i);
+  for (std::size_t i = 0; i < mirrors; ++i) add_direction(scan, s.mirrors, i);
   for (std::size_t c = 0; c < values.channels; ++c) {
     const MaterialChannel& from = reference.channels[c];
-    const auto first = values.f.begin() + static_cast<std::ptrdiff_t>(c * d.size());
-    scan.channels.push_back({from.name, from.wavelength_um, from.n, from.kappa,
-                             std::vector<double>(first, first + static_cast<std::ptrdiff_t>(d.size())), {}});
+    ScanChannel channel{from.name, from.wavelength_um, from.n, from.kappa, {}, {}};
+    for (const std::size_t i : rows) {
+      channel.values.push_back(values.f[c * s.directions.size() + i]);
+      channel.u.push_back(s.drawn / s.weights[i]);
+    }
+    for (std::size_t i = 0; i < mirrors; ++i) {
+      const double part = s.mirrors.l_z[i] * s.solid_angle_sr;  // of the reflectance, by f
+      channel.values.push_back(values.mirror[c * mirrors + i] + values.mirror_energy[c * mirrors + i] / part);
+      channel.u.push_back(1.0 / part);
+    }
+    scan.channels.push_back(std::move(channel));
   }
   return scan;
 }
 
-Candidate fitted_peer(const std::string& model, const Scan& scan, const Material& reference,
-                      FresnelTier fresnel) {
+Material l1_fit(const Scan& scan, FitSettings settings) {
+  double mean = 0.0;
+  for (const ScanChannel& c : scan.channels) {
+    for (std::size_t i = 0; i < scan.size(); ++i) mean += c.values[i] / c.u[i];
+  }
+  mean /= static_cast<double>(scan.channels.size() * scan.size());
+  settings.loss = Loss::inverse_variance;
+  settings.weight = Weight::none;
+  settings.robust = RobustKernel::soft_l1;
+  settings.robust_scale = linear_from * mean;
+  Material fitted = fit(scan, settings).material;
+  fitted.fit.reset();
+  return fitted;
+}
+
+std::vector<std::string> peers_for(const Material& material) {
+  std::vector<std::string> names;
+  const auto has_widths = [](std::string_view name) {
+    return name.ends_with("-anisotropic") || (name.starts_with("schlick-") && !name.ends_with("-isotropic"));
+  };
+  for (const PeerInfo& peer : peer_catalogue()) {
+    if (material.surface.anisotropic() || !has_widths(peer.name)) names.emplace_back(peer.name);
+  }
+  return names;
+}
+
+Candidate fitted_peer(const std::string& model, const Scan& scan, const Material& reference) {
   FitSettings settings;
   settings.model = model;
-  settings.terms.fresnel = reference.terms.fresnel == FresnelTier::exact ? fresnel : FresnelTier::schlick;
   const bool by_reflectance = std::any_of(reference.channels.begin(), reference.channels.end(),
                                           [](const MaterialChannel& c) { return c.f0.has_value(); });
   if (by_reflectance) {
     for (const MaterialChannel& c : reference.channels) settings.f0.push_back(c.normal_reflectance());
   }
-  Candidate best{.name = model, .material = {}};
-  double least = std::numeric_limits<double>::infinity();
-  for (const Loss loss : {Loss::cosine_l2, Loss::cube_root}) {
-    settings.loss = loss;
-    Material fitted = fit(scan, settings).material;
-    fitted.fit.reset();
-    const double l1 = l1_of(fitted, scan);
-    if (!(l1 < least)) continue;
-    least = l1;
-    best.material = std::move(fitted);
-    best.note = "fitted, loss " + std::string(name_of(loss));
-  }
-  return best;
+  return {.name = model, .material = l1_fit(scan, std::move(settings)), .note = "peers are fitted to the reference"};
 }
 
 }  // namespace goniofit

@@ -32,8 +32,9 @@ Reference reference_of(const Material& material, WaveOptics wave_optics) {
   const std::string where = material.name.empty() ? "material" : material.name;
   validate(material, where);
   if (material.model != surface_model) {
-    throw key_error(where, "/model",
-                    in_quotes(material.model) + " has no terms to exchange, expected \"" + std::string(surface_model) + "\"");
+    throw key_error(
+        where, "/model",
+        in_quotes(material.model) + " has no terms to exchange, expected \"" + std::string(surface_model) + "\"");
   }
   Reference r{material, {}};
   r.material.fit.reset();

@@ -5,6 +5,7 @@
 #include <iterator>
 #include <memory>
 #include <span>
+#include <utility>
 
 #include "cost/machine.h"
 #include "cost/pareto.h"
@@ -15,15 +16,14 @@ namespace goniofit {
 
 namespace {
 
-constexpr std::array group_names{
-    Named<TradeoffGroup>{TradeoffGroup::model, "model"},
-    Named<TradeoffGroup>{TradeoffGroup::fresnel, "fresnel"},
-    Named<TradeoffGroup>{TradeoffGroup::shadowing, "shadowing"},
-    Named<TradeoffGroup>{TradeoffGroup::effective_roughness, "effective_roughness"},
-    Named<TradeoffGroup>{TradeoffGroup::distribution, "distribution"},
-    Named<TradeoffGroup>{TradeoffGroup::oren_nayar, "oren-nayar"},
-    Named<TradeoffGroup>{TradeoffGroup::effects, "effects"},
-    Named<TradeoffGroup>{TradeoffGroup::fit, "fit"}};
+constexpr std::array group_names{Named<TradeoffGroup>{TradeoffGroup::model, "model"},
+                                 Named<TradeoffGroup>{TradeoffGroup::fresnel, "fresnel"},
+                                 Named<TradeoffGroup>{TradeoffGroup::shadowing, "shadowing"},
+                                 Named<TradeoffGroup>{TradeoffGroup::effective_roughness, "effective_roughness"},
+                                 Named<TradeoffGroup>{TradeoffGroup::distribution, "distribution"},
+                                 Named<TradeoffGroup>{TradeoffGroup::oren_nayar, "oren-nayar"},
+                                 Named<TradeoffGroup>{TradeoffGroup::effects, "effects"},
+                                 Named<TradeoffGroup>{TradeoffGroup::fit, "fit"}};
 
 TradeoffRow row_of(const tradeoff::Table& table, const Candidate& c) {
   TradeoffRow row{.group = table.group,
@@ -186,7 +186,11 @@ TradeoffSettings TradeoffSettings::quick() {
 
 Tradeoff measure_tradeoff(const std::vector<Material>& materials, const TradeoffSettings& settings,
                           const TradeoffProgress& progress) {
-  Tradeoff t{.machine = machine_name(), .reference = {}, .instructions = settings.instructions, .settings = settings, .rows = {}};
+  Tradeoff t{.machine = machine_name(),
+             .reference = {},
+             .instructions = settings.instructions,
+             .settings = settings,
+             .rows = {}};
   std::vector<Material> valid;
   for (const Material& m : materials) {
     const Reference r = reference_of(m, WaveOptics::series);
@@ -197,7 +201,11 @@ Tradeoff measure_tradeoff(const std::vector<Material>& materials, const Tradeoff
   const std::size_t total = valid.size() * settings.groups.size();
   std::size_t done = 0;
   for (const TradeoffGroup group : settings.groups) {
+    bool grooves_shown = false;  // materials without any share a demonstration
     for (const Material& m : valid) {
+      if (group == TradeoffGroup::oren_nayar && !acting_effects(m).has(Effect::rough)) {
+        if (std::exchange(grooves_shown, true)) continue;
+      }
       const tradeoff::Note note = [&](const std::string& what) {
         if (progress) progress(std::string(name_of(group)) + ": " + what, done, total);
       };

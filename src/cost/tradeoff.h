@@ -30,9 +30,10 @@ enum class TradeoffGroup : std::uint8_t {
   effects,              ///< subsets of the effects against all of them, terms as published
   fit                   ///< what fitting with these terms gives: time, loss, slope
 };
-inline constexpr std::array all_tradeoff_groups{
-    TradeoffGroup::model,        TradeoffGroup::fresnel,    TradeoffGroup::shadowing, TradeoffGroup::effective_roughness,
-    TradeoffGroup::distribution, TradeoffGroup::oren_nayar, TradeoffGroup::effects,   TradeoffGroup::fit};
+inline constexpr std::array all_tradeoff_groups{TradeoffGroup::model,        TradeoffGroup::fresnel,
+                                                TradeoffGroup::shadowing,    TradeoffGroup::effective_roughness,
+                                                TradeoffGroup::distribution, TradeoffGroup::oren_nayar,
+                                                TradeoffGroup::effects,      TradeoffGroup::fit};
 [[nodiscard]] std::string_view name_of(TradeoffGroup) noexcept;
 template <>
 [[nodiscard]] std::optional<TradeoffGroup> parse_name<TradeoffGroup>(std::string_view name) noexcept;
@@ -64,8 +65,8 @@ struct TradeoffRow {
   double tolerance = 0.0;
   bool shadowing_shortcut = false;
   std::string note{};
-  Timing time{};           ///< of one evaluation in the first channel
-  std::string ratio_to{};  ///< the row of its table that time.ratio is over
+  Timing time{};                             ///< of one evaluation in the first channel
+  std::string ratio_to{};                    ///< the row of its table that time.ratio is over
   std::optional<double> ns_per_direction{};  ///< all channels of one pair of directions
   ModelError error{};                        ///< of single terms l1, rms_relative and max_relative alone
   bool pareto = false;  ///< of the rows of its group and material none is both faster and as right (by l1)

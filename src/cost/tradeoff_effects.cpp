@@ -25,6 +25,9 @@ std::vector<EffectSet> subsets_of(EffectSet all) {
   return sets;
 }
 
+constexpr double added_k = 0.05;
+constexpr const char* added_note = "effects that the sample lacks have a coefficient of 0.05";
+
 // A material of the paper with all of its five effects: those that it lacks are added faintly, so that every subset
 // can be timed. Its lengths are known.
 Material with_five_effects(Material m) {
@@ -32,7 +35,7 @@ Material with_five_effects(Material m) {
     m.components.insert(e);
     for (MaterialChannel& c : m.channels) {
       std::optional<double>& k = c.coefficient(coefficient_of(e));
-      if (k.value_or(0.0) == 0.0) k = 0.05;
+      if (k.value_or(0.0) == 0.0) k = added_k;
     }
   }
   return m;
@@ -53,6 +56,7 @@ Rows effect_rows(const Material& material, const TradeoffSettings& s) {
   for (const EffectSet effects : subsets_of(acting_effects(full))) {
     Candidate c{.name = effects_text(effects), .material = full, .compile = {.instructions = s.instructions}};
     c.material.components = effects;
+    if (full.components != material.components) c.note = added_note;
     table.candidates.push_back(std::move(c));
   }
   if (table.candidates.empty()) return {};

@@ -81,7 +81,8 @@ Rows fit_rows(const Material& material, const TradeoffSettings& s, const Note& n
                      },
                      1.0});
   }
-  const TimingSettings few{.rounds = s.timing.rounds < 5 ? std::size_t{1} : std::size_t{5}, .least_seconds = 0.0, .seed = s.seed};
+  const TimingSettings few{
+      .rounds = s.timing.rounds < 5 ? std::size_t{1} : std::size_t{5}, .least_seconds = 0.0, .seed = s.seed};
   const std::vector<Timing> times = time_interleaved(tasks, 0, few);
   const Candidate exact{.name = reference.name, .material = reference.material};
   Rows rows = measured(table, exact, error_samples(reference.material, {}, s.errors), s);

@@ -2,10 +2,8 @@
 
 #include <string>
 
-#include "brdf/named_terms.h"
 #include "cost/fitted_models.h"
 #include "cost/tradeoff_parts.h"
-#include "peers/peers.h"
 
 namespace goniofit::tradeoff {
 
@@ -44,7 +42,8 @@ void add_scalar(std::vector<Candidate>& to, Candidate c) {
 Rows model_rows(const Material& material, const TradeoffSettings& s, const Note& note) {
   const Reference reference = reference_of(material, WaveOptics::series);
   const Reference fast = reference_of(material, WaveOptics::fast);
-  Table table{.group = TradeoffGroup::model, .material = material.name, .reference = reference.name, .all_channels = true};
+  Table table{
+      .group = TradeoffGroup::model, .material = material.name, .reference = reference.name, .all_channels = true};
   std::vector<Candidate>& list = table.candidates;
   const Candidate lt = with_terms("li-torrance", material, published_terms(material), s);
   list = {lt};
@@ -63,9 +62,9 @@ Rows model_rows(const Material& material, const TradeoffSettings& s, const Note&
   if (wave_optics) list.push_back(exact);
 
   const Scan scan = reference_scan(fast.material, s.seed + 1);
-  for (const PeerInfo& peer : peer_catalogue()) {
-    note(material.name + ", fitting " + std::string(peer.name));
-    list.push_back(fitted_peer(std::string(peer.name), scan, fast.material, FresnelTier::schlick));
+  for (const std::string& peer : peers_for(material)) {
+    note(material.name + ", fitting " + peer);
+    list.push_back(fitted_peer(peer, scan, fast.material));
     list.back().compile.instructions = s.instructions;
   }
   note(material.name);

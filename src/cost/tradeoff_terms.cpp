@@ -3,12 +3,11 @@
 #include <array>
 #include <cmath>
 
-#include "cost/tradeoff_parts.h"
-#include "fit/fit.h"
 #include "basis/optics.h"
 #include "brdf/surface_shape.h"
+#include "cost/fitted_models.h"
+#include "cost/tradeoff_parts.h"
 #include "synthetic/random.h"
-#include "synthetic/simulate.h"
 
 namespace goniofit::tradeoff {
 
@@ -165,10 +164,10 @@ std::optional<Material> long_tailed(const Material& exact) {
   settings.terms.distribution = DistributionTier::student_t;
   settings.parameters["slope"] = {exact.surface.slope, {}, {}};
   for (const MaterialChannel& c : exact.channels) {
+    if (c.f0) settings.f0.push_back(*c.f0);
     settings.parameters[c.name + ".k_dd"] = {c.coefficient(Coefficient::k_dd), {}, {}};
   }
-  Material fitted = fit(simulate(exact, Sampling::hemisphere, {}, 1), settings).material;
-  fitted.fit.reset();
+  Material fitted = l1_fit(reference_scan(exact, 1), settings);
   if (!fitted.surface.tail) return std::nullopt;
   return fitted;
 }

@@ -13,7 +13,8 @@ constexpr double led_from = 12.0;
 struct Side {
   double x, y;  // of the label's centre from the point's, in units of half a label plus the distance
 };
-constexpr std::array sides{Side{1, 0}, Side{-1, 0}, Side{1, -1}, Side{1, 1}, Side{-1, -1}, Side{-1, 1}, Side{0, -1}, Side{0, 1}};
+constexpr std::array sides{Side{1, 0},   Side{-1, 0}, Side{1, -1}, Side{1, 1},
+                           Side{-1, -1}, Side{-1, 1}, Side{0, -1}, Side{0, 1}};
 constexpr std::array distances{7.0, 15.0, 24.0, 34.0, 46.0, 60.0};
 
 LabelBox box_at(const LabelledPoint& p, const Side& side, double distance) {
@@ -28,8 +29,9 @@ bool is_within(const LabelBox& b, const LabelBox& panel) {
 
 }  // namespace
 
-std::vector<std::optional<PlacedLabel>> place_labels(const std::vector<LabelledPoint>& points, const LabelBox& panel) {
-  std::vector<LabelBox> taken;
+std::vector<std::optional<PlacedLabel>> place_labels(const std::vector<LabelledPoint>& points, const LabelBox& panel,
+                                                     std::vector<LabelBox> obstacles) {
+  std::vector<LabelBox>& taken = obstacles;
   for (const LabelledPoint& p : points) {
     taken.push_back({p.x - point_radius, p.y - point_radius, p.x + point_radius, p.y + point_radius});
   }

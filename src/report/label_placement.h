@@ -24,9 +24,10 @@ struct PlacedLabel {
   bool led;  ///< so far from its point that a line should lead to it
 };
 
-/// One a point, in the order given, which is that of importance: each takes the nearest free place within `panel`, and
-/// none where there is none. Greedy: short lists of labels need no better.
+/// One a point, clear of `obstacles`, in the order given, which is that of importance: each takes the nearest free
+/// place within `panel`, and none where there is none. Greedy: short lists of labels need no better.
 [[nodiscard]] std::vector<std::optional<PlacedLabel>> place_labels(const std::vector<LabelledPoint>& points,
-                                                                   const LabelBox& panel);
+                                                                   const LabelBox& panel,
+                                                                   std::vector<LabelBox> obstacles = {});
 
 }  // namespace goniofit

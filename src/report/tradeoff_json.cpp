@@ -78,12 +78,8 @@ Json row_json(const TradeoffRow& r, InstructionSet instructions) {
 }  // namespace
 
 std::string tradeoff_json(const Tradeoff& t) {
-  Json out{{"machine", t.machine},
-           {"instruction_set", name_of(t.instructions)},
-           {"reference", t.reference},
-           {"seed", t.settings.seed},
-           {"rounds", t.settings.timing.rounds},
-           {"pairs", t.settings.pairs},
+  Json out{{"machine", t.machine},    {"instruction_set", name_of(t.instructions)}, {"reference", t.reference},
+           {"seed", t.settings.seed}, {"rounds", t.settings.timing.rounds},         {"pairs", t.settings.pairs},
            {"rows", Json::array()}};
   for (const TradeoffRow& row : t.rows) out["rows"].push_back(row_json(row, t.instructions));
   return out.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';

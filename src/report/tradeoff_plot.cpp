@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "cost/candidate.h"
 #include "report/gnuplot.h"
 #include "report/label_placement.h"
 #include "report/plot_page.h"
@@ -19,7 +20,7 @@ namespace {
 
 using Rows = std::vector<const TradeoffRow*>;
 
-constexpr double least_error = 1e-10;  // what is below stands on the axis
+constexpr double least_error = 1e-8;  // what is below stands on the axis
 constexpr double label_pixels = 11.0, pixels_per_letter = 0.56 * label_pixels;
 constexpr const char* front_color = "#0072B2";
 constexpr const char* other_color = "#707070";
@@ -34,11 +35,11 @@ double error_of(const TradeoffRow& row) { return std::max(row.error.l1, least_er
 std::vector<Rows> panels_of(const Tradeoff& t) {
   std::vector<Rows> panels;
   if (t.rows.empty()) return panels;
-  const bool any_models = std::any_of(t.rows.begin(), t.rows.end(),
-                                      [](const TradeoffRow& r) { return r.group == TradeoffGroup::model; });
+  const bool any_models =
+      std::any_of(t.rows.begin(), t.rows.end(), [](const TradeoffRow& r) { return r.group == TradeoffGroup::model; });
   const TradeoffGroup group = any_models ? TradeoffGroup::model : t.rows.front().group;
   for (const TradeoffRow& row : t.rows) {
-    if (row.group != group) continue;
+    if (row.group != group || row.arithmetic == name_of(Arithmetic::scalar)) continue;
     if (panels.empty() || panels.back().front()->material != row.material) panels.emplace_back();
     panels.back().push_back(&row);
   }
@@ -86,13 +87,32 @@ struct Axes {
 
 std::string text_of(const TradeoffRow& row) { return row.name; }
 
+// The line through the front as small boxes along it.
+std::vector<LabelBox> line_boxes(const Rows& rows, const Axes& axes) {
+  constexpr double step = 4.0;
+  std::vector<LabelBox> boxes;
+  for (std::size_t i = 0; i + 1 < rows.size() && rows[i + 1]->pareto; ++i) {
+    const double x = axes.x(rows[i]->time.median_ns);
+    const double y = axes.y(error_of(*rows[i]));
+    const double dx = axes.x(rows[i + 1]->time.median_ns) - x;
+    const double dy = axes.y(error_of(*rows[i + 1])) - y;
+    const double count = std::ceil(std::hypot(dx, dy) / step);
+    for (double k = 0.0; k < count; ++k) {
+      const double at = k / count;
+      boxes.push_back({x + at * dx - 1.5, y + at * dy - 1.5, x + at * dx + 1.5, y + at * dy + 1.5});
+    }
+  }
+  return boxes;
+}
+
 std::string labels(const Rows& rows, const Axes& axes, const PlotPage& page) {
   std::vector<LabelledPoint> points;
   for (const TradeoffRow* row : rows) {
     points.push_back({axes.x(row->time.median_ns), axes.y(error_of(*row)),
                       pixels_per_letter * static_cast<double>(text_of(*row).size()), 1.15 * label_pixels});
   }
-  const std::vector<std::optional<PlacedLabel>> placed = place_labels(points, {2.0, 2.0, axes.width - 2.0, axes.height - 2.0});
+  const std::vector<std::optional<PlacedLabel>> placed =
+      place_labels(points, {2.0, 2.0, axes.width - 2.0, axes.height - 2.0}, line_boxes(rows, axes));
   std::string out;
   const auto graph = [&](double x, double y) {
     return fmt::format("graph {:.5f}, graph {:.5f}", x / axes.width, 1.0 - y / axes.height);
@@ -146,7 +166,7 @@ std::string page_texts(const PlotPage& page, const Tradeoff& t, const TradeoffRo
       11, models ? "What accuracy costs in time" : "What accuracy costs in time: " + std::string(name_of(any.group)),
       0.5 * page.width, 20.0, fmt::format("center font '{}'", page.font(17.0)));
   const std::string text =
-      fmt::format("L1 error against {} (below 1e-10: on the axis); blue: nothing is both faster and nearer; {}, {}",
+      fmt::format("L1 error against {} (below 1e-8: on the axis); blue: nothing is both faster and nearer; {}, {}",
                   models ? t.reference : any.reference, t.machine, name_of(t.instructions));
   return out + page.label(12, text, 0.5 * page.width, 42.0,
                           fmt::format("center font '{}' textcolor rgb '#606060'", page.font(11.5)));
@@ -161,7 +181,7 @@ void plot_tradeoff(const std::filesystem::path& path, const Tradeoff& tradeoff) 
   const PanelGrid grid{.panels = panels.size(),
                        .columns = panels.size() > 1 ? std::size_t{2} : std::size_t{1},
                        .panel_width = 600.0,
-                       .panel_height = 420.0,
+                       .panel_height = 480.0,
                        .gap_x = 64.0,
                        .gap_y = 74.0,
                        .left = 84.0,
@@ -173,7 +193,8 @@ void plot_tradeoff(const std::filesystem::path& path, const Tradeoff& tradeoff) 
   std::string script = page.terminal();
   for (std::size_t i = 0; i < panels.size(); ++i) script += data_of(panels[i], i);
   script +=
-      "set border 3\nunset key\nset logscale xy\nset format y '10^{%T}'\nset xtics nomirror out\nset ytics nomirror out\n"
+      "set border 3\nunset key\nset logscale xy\nset format y '10^{%T}'\nset xtics nomirror out\nset ytics nomirror "
+      "out\n"
       "set grid lc rgb '#E8E8E8' lt 1 lw 0.5\nset multiplot\n";
   for (std::size_t i = 0; i < panels.size(); ++i) {
     const std::string commands = panel_commands(grid, page, axes, panels[i], i);

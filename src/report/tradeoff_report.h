@@ -12,9 +12,9 @@ namespace goniofit {
 /// A table for each group and material, its rows by time; those of the Pareto front are marked.
 [[nodiscard]] std::string tradeoff_text(const Tradeoff& tradeoff, const ReportStyle& style);
 
-/// {"machine", "instruction_set", "reference", "seed", "rounds", "pairs", "rows": [{"name", "group", "terms", "effects",
-/// "material", "model", "ns_per_evaluation", "ns_min", "ns_max", "l1_error", "rms_relative_error", "max_relative_error",
-/// "pareto", ...}]}. "terms" is null for a peer.
+/// {"machine", "instruction_set", "reference", "seed", "rounds", "pairs", "rows": [{"name", "group", "terms",
+/// "effects", "material", "model", "ns_per_evaluation", "ns_min", "ns_max", "l1_error", "rms_relative_error",
+/// "max_relative_error", "pareto", ...}]}. "terms" is null for a peer.
 [[nodiscard]] std::string tradeoff_json(const Tradeoff& tradeoff);
 
 /// Error against time of whole models, both logarithmic, a panel a material, the front connected; of the first other

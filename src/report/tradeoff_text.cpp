@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -19,12 +20,13 @@ std::string ns_text(double ns) {
   return ns < 10.0 ? fmt::format("{:.2f}", ns) : ns < 100.0 ? fmt::format("{:.1f}", ns) : fmt::format("{:.0f}", ns);
 }
 
-// Percent from 0.01 % up, below that a power of ten: errors span many decades.
+// Percent from 0.01 % up, below that a power of ten, far above a factor: errors span many decades.
 std::string error_text(double e) {
   if (!std::isfinite(e)) return "-";
   if (e == 0.0) return "0";
   if (e < 1e-4) return fmt::format("{:.0e}", e);
-  if (e > 99.95) return fmt::format("{:.1e}", e);
+  if (e >= 100.0) return fmt::format("{:.2g} x", e);
+  if (e >= 1.0) return fmt::format("{:.0f} %", 100.0 * e);
   return fmt::format("{:.3g} %", 100.0 * e);
 }
 
@@ -75,17 +77,26 @@ std::vector<Cell> cells_of(const TradeoffRow& r) {
   return cells;
 }
 
+// Each once.
+std::string notes_of(const Rows& rows) {
+  std::set<std::string> notes;
+  for (const TradeoffRow* row : rows) {
+    if (!row->note.empty()) notes.insert(row->note);
+  }
+  std::string out;
+  for (const std::string& note : notes) out += "  " + printable(note) + "\n";
+  return out;
+}
+
 std::string table_of(Rows rows, const ReportStyle& style) {
   const TradeoffRow& any = *rows.front();
-  std::stable_sort(rows.begin(), rows.end(), [](const TradeoffRow* a, const TradeoffRow* b) {
-    return a->time.median_ns < b->time.median_ns;
-  });
+  std::stable_sort(rows.begin(), rows.end(),
+                   [](const TradeoffRow* a, const TradeoffRow* b) { return a->time.median_ns < b->time.median_ns; });
   TextTable table(columns_for(any.group, any.ratio_to));
   for (const TradeoffRow* row : rows) table.add_row(cells_of(*row));
-  const std::string title =
-      fmt::format("{}: {}", name_of(any.group), printable(any.material));
+  const std::string title = fmt::format("{}: {}", name_of(any.group), printable(any.material));
   return tinted(title, Tint::bold, style.color) + "   errors against " + printable(any.reference) + "\n" +
-         table.str(2, style.color) + "\n";
+         table.str(2, style.color) + notes_of(rows) + "\n";
 }
 
 }  // namespace

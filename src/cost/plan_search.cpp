@@ -24,7 +24,9 @@ void add(ModelValues& to, const ModelValues& part) {
   add_all(to.mirror_energy, part.mirror_energy);
 }
 
-std::vector<EffectSet> subsets(EffectSet all) {
+}  // namespace
+
+std::vector<EffectSet> subsets_of(EffectSet all) {
   std::vector<EffectSet> sets{{}};
   for (const Effect e : all_effects) {
     if (!all.has(e)) continue;
@@ -37,8 +39,6 @@ std::vector<EffectSet> subsets(EffectSet all) {
   sets.erase(sets.begin());
   return sets;
 }
-
-}  // namespace
 
 bool reads_fresnel(EffectSet e) noexcept {
   return e.has(Effect::coh) || e.has(Effect::dd) || e.has(Effect::uds) || e.has(Effect::fs);
@@ -96,7 +96,7 @@ std::vector<PlanChoice> PlanSearch::all() const {
               if (std::find(begin, choices.end(), c) == choices.end()) choices.push_back(c);
             }
   };
-  for (const EffectSet effects : subsets(acting_)) add_all_tiers(effects);
+  for (const EffectSet effects : subsets_of(acting_)) add_all_tiers(effects);
   return choices;
 }
 
@@ -133,9 +133,7 @@ ModelValues PlanSearch::sum(const PlanChoice& choice) {
   return total;
 }
 
-ModelError PlanSearch::error(const PlanChoice& choice) {
-  return model_error(samples_, exact_, sum(choice), channels_);
-}
+ModelError PlanSearch::error(const PlanChoice& choice) { return model_error(samples_, exact_, sum(choice), channels_); }
 
 bool no_dearer(const PlanChoice& a, const PlanChoice& b) noexcept {
   for (const Effect e : all_effects) {

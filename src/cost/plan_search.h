@@ -62,6 +62,9 @@ class PlanSearch {
   ModelValues exact_;
 };
 
+/// All but the empty one.
+[[nodiscard]] std::vector<EffectSet> subsets_of(EffectSet effects);
+
 /// Whether `a` is no dearer than `b` by construction: no more effects, and each term that it reads the same, left out,
 /// or plainly a part of the other's work.
 [[nodiscard]] bool no_dearer(const PlanChoice& a, const PlanChoice& b) noexcept;

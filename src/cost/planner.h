@@ -38,8 +38,8 @@ struct Plan {
   double tolerance = 0.0;
   std::string reference;  ///< what errors are against
   std::vector<PlanLine> lines;
-  ModelError error;         ///< of the plan; worst_l1_bound is at most the tolerance
-  ModelError error_before;  ///< of the material as it was given
+  ModelError error;                                      ///< of the plan; worst_l1_bound is at most the tolerance
+  ModelError error_before;                               ///< of the material as it was given
   double ns = 0.0, ns_before = 0.0, ns_reference = 0.0;  ///< of one evaluation, medians of one interleaved run
   double ratio_before = 1.0, ratio_reference = 1.0;      ///< of these times over the plan's, round by round
   std::size_t searched = 0, within = 0, timed = 0;       ///< combinations

@@ -4,26 +4,13 @@
 #include <array>
 
 #include "brdf/paper_samples.h"
+#include "cost/plan_search.h"
 #include "cost/tradeoff_parts.h"
 #include "geometry/angles.h"
 
 namespace goniofit::tradeoff {
 
 namespace {
-
-std::vector<EffectSet> subsets_of(EffectSet all) {
-  std::vector<EffectSet> sets{{}};
-  for (const Effect e : all_effects) {
-    if (!all.has(e)) continue;
-    const std::size_t without = sets.size();
-    for (std::size_t i = 0; i < without; ++i) {
-      sets.push_back(sets[i]);
-      sets.back().insert(e);
-    }
-  }
-  sets.erase(sets.begin());
-  return sets;
-}
 
 constexpr double added_k = 0.05;
 constexpr const char* added_note = "effects that the sample lacks have a coefficient of 0.05";

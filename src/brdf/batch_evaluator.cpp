@@ -1,19 +1,15 @@
 #include "brdf/batch_evaluator.h"
 
-#include "brdf/evaluator.h"
+#include <type_traits>
+
+#include "brdf/batch_program.h"
+#include "brdf/batch_source.h"
 
 namespace goniofit {
 
 template <class Real>
-class BatchEvaluator<Real>::Program {
- public:
-  explicit Program(const Material& m) : scalar(m) {}
-  Evaluator scalar;
-};
-
-template <class Real>
-BatchEvaluator<Real>::BatchEvaluator(const Material& material, const CompileSettings& /*settings*/)
-    : program_(std::make_unique<Program>(material)) {}
+BatchEvaluator<Real>::BatchEvaluator(const Material& material, const CompileSettings& settings)
+    : program_(batch::compile<Real>(material, settings)) {}
 template <class Real>
 BatchEvaluator<Real>::~BatchEvaluator() = default;
 template <class Real>
@@ -23,26 +19,17 @@ BatchEvaluator<Real>& BatchEvaluator<Real>::operator=(BatchEvaluator&&) noexcept
 
 template <class Real>
 std::size_t BatchEvaluator<Real>::channels() const noexcept {
-  return program_->scalar.channels();
+  return program_->channels();
 }
 
 template <class Real>
 void BatchEvaluator<Real>::values(const BasicPairBatch<Real>& pairs, std::span<Real> result) const {
-  for (std::size_t c = 0; c < channels(); ++c) {
-    for (std::size_t i = 0; i < pairs.size(); ++i) {
-      result[c * pairs.size() + i] = static_cast<Real>(program_->scalar.value(pairs.template as<double>(i), c));
-    }
-  }
+  program_->run(pairs, result);
 }
 
 template <class Real>
-void BatchEvaluator<Real>::values(const BasicDirectionBatch<Real>& d, std::span<Real> result) const {
-  for (std::size_t i = 0; i < d.size(); ++i) {
-    const Pair pair = make_pair({d.l_x[i], d.l_y[i], d.l_z[i]}, {d.v_x[i], d.v_y[i], d.v_z[i]});
-    for (std::size_t c = 0; c < channels(); ++c) {
-      result[c * d.size() + i] = static_cast<Real>(program_->scalar.value(pair, c));
-    }
-  }
+void BatchEvaluator<Real>::values(const BasicDirectionBatch<Real>& directions, std::span<Real> result) const {
+  program_->run(directions, result);
 }
 
 template class BatchEvaluator<double>;

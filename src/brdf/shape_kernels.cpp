@@ -1,36 +1,39 @@
-#include "brdf/shape_loop.h"
+#include "brdf/shape_kernels.h"
+
+#include <algorithm>
+
+#include "brdf/batch_source.h"
+#include "brdf/block_loops.h"
 
 namespace goniofit {
 
-namespace {
-
-using shape_loop::DoubleSink;
-using shape_loop::Want;
-
-template <ShadowingTier shadowing, EffectiveRoughnessTier roughness, FsForm form, Want want>
-GONIOFIT_VECTOR_CLONES void columns(const PairBatch& pairs, double log_slope, double floor, double* dd, double* fs) {
-  shape_loop::run<shadowing, roughness, form, want>(pairs, log_slope, floor, DoubleSink{dd}, DoubleSink{fs});
-}
-
-template <ShadowingTier shadowing, EffectiveRoughnessTier roughness>
-void choose(const PairBatch& pairs, FsForm form, double log_slope, double floor, double* dd, double* fs) {
-  using enum FsForm;
-  if (fs == nullptr) return columns<shadowing, roughness, printed, Want::dd>(pairs, log_slope, floor, dd, fs);
-  if (dd == nullptr) {
-    if (form == printed) return columns<shadowing, roughness, printed, Want::fs>(pairs, log_slope, floor, dd, fs);
-    return columns<shadowing, roughness, reciprocal, Want::fs>(pairs, log_slope, floor, dd, fs);
-  }
-  if (form == printed) return columns<shadowing, roughness, printed, Want::both>(pairs, log_slope, floor, dd, fs);
-  return columns<shadowing, roughness, reciprocal, Want::both>(pairs, log_slope, floor, dd, fs);
-}
-
-}  // namespace
-
 void shape_columns(const PairBatch& pairs, const ShapeSettings& settings, double log_slope, double* dd, double* fs) {
-  if (dd == nullptr && fs == nullptr) return;
-  with_tiers(settings, [&]<ShadowingTier shadowing, EffectiveRoughnessTier roughness>() {
-    choose<shadowing, roughness>(pairs, settings.forms.fs, log_slope, exponent_floor, dd, fs);
-  });
+  const InstructionSet set = best_instruction_set();
+  const bool grows = settings.effective_roughness != EffectiveRoughnessTier::none;
+  const bool sees = dd != nullptr || (fs != nullptr && grows);
+  const double slope = std::exp(log_slope);
+  const auto visibility =
+      block::visibility<double>(dd != nullptr, settings.shadowing, settings.effective_roughness, set);
+  const auto directional_diffuse = block::directional_diffuse<double>(settings.distribution, grows, set);
+  const auto forward_scattering = block::forward_scattering<double>(settings.forms.fs, grows, set);
+  const batch::PairSource<double, double> source(pairs, block::Fields::all(), set);
+  batch::FieldArrays<double>* const no_copies = nullptr;
+  block::Terms<double> terms;
+  block::Geometry<double> geometry;
+  for (std::size_t first = 0; first < pairs.size(); first += block::size) {
+    const std::size_t n = std::min(block::size, pairs.size() - first);
+    source.prepare(first, n, no_copies, geometry);
+    if (sees) visibility({geometry, &terms, n, slope, 1.0 / slope, log_slope, 2.0});
+    const block::LobeArguments<double> lobe{geometry, &terms, n, log_slope, 1.0 / (slope * slope), 0.0};
+    if (dd != nullptr) {
+      directional_diffuse(lobe);
+      std::copy_n(terms.dd.begin(), n, dd + first);
+    }
+    if (fs != nullptr) {
+      forward_scattering(lobe);
+      std::copy_n(terms.fs.begin(), n, fs + first);
+    }
+  }
 }
 
 }  // namespace goniofit

@@ -1,22 +1,26 @@
 #pragma once
-// The shape factors of dd and fs for a whole batch of directions, isotropic and with the tiers as published: what most
-// fits compute at each point of their search. The loop is surface_shape.h's, instantiated for double here and for a
-// dual number in fit/, and vectorised by the compiler with the C library's vector functions (relative error a few
-// 1e-16; the scalar Evaluator is the reference).
+// The shape factors of dd and fs for a whole batch of directions, isotropic and in the rough limit: what most fits
+// compute at each point of their search, by the loops of block_loops.h.
 
 #include "surface_shape.h"
 
 namespace goniofit {
 
-/// Whether these kernels have the tiers: each further one doubles what there is to compile.
+/// Whether shape_columns has the tiers.
 [[nodiscard]] constexpr bool has_kernel(const ShapeSettings& s) noexcept {
+  return s.distribution == DistributionTier::rough_limit && !s.anisotropic;
+}
+
+/// Whether with_tiers has them, for the loops on dual numbers: each further one doubles what there is to compile.
+[[nodiscard]] constexpr bool has_derivative_kernel(const ShapeSettings& s) noexcept {
   const bool shadowing = s.shadowing == ShadowingTier::li_torrance || s.shadowing == ShadowingTier::none;
   const bool roughness = s.effective_roughness == EffectiveRoughnessTier::li_torrance ||
                          s.effective_roughness == EffectiveRoughnessTier::none;
-  return shadowing && roughness && s.distribution == DistributionTier::rough_limit && !s.anisotropic;
+  return has_kernel(s) && shadowing && roughness;
 }
 
-/// Calls f.template operator()<shadowing, roughness>() with the tiers as compile-time constants; of such as has_kernel.
+/// Calls f.template operator()<shadowing, roughness>() with the tiers as compile-time constants; of such as
+/// has_derivative_kernel.
 template <class F>
 void with_tiers(const ShapeSettings& s, const F& f) {
   using enum EffectiveRoughnessTier;

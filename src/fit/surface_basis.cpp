@@ -271,7 +271,7 @@ void SurfaceBasis::fill(const PairBatch& pairs, std::span<const double> z, doubl
   for (std::size_t j = 0; j < columns_.size(); ++j) {
     if (!columns_[j].reads_shape) std::fill_n(values[j], pairs.size(), 1.0 / pi);
   }
-  if (slope_ && has_kernel(settings_)) {
+  if (slope_ && (derivatives.empty() ? has_kernel(settings_) : has_derivative_kernel(settings_))) {
     fill_by_kernel(pairs, z, out);
     if (components_.has(Effect::coh)) add_coherent(pairs, z, wavelength_um, out.dd);
   } else if (slope_ && derivatives.empty()) {

@@ -12,7 +12,7 @@ namespace goniofit {
 
 /// (n+2)/(2 pi) cos^n theta_b, n = e^z; cos^n as exp(-n/2 ln(1 + tan²)), exact at the mirror where 1 - cos is lost.
 template <class T, class G>
-[[nodiscard]] T blinn_phong_lobe(const T& z, const BasicPair<G>& p) {
+[[nodiscard]] [[gnu::always_inline]] inline T blinn_phong_lobe(const T& z, const BasicPair<G>& p) {
   using namespace math;
   const T n = exp(z);
   return (n + 2.0) / (2.0 * pi_of<G>()) * exp(-0.5 * n * log1p(p.tan2_b));
@@ -21,7 +21,7 @@ template <class T, class G>
 struct BlinnPhong {
   static constexpr std::size_t columns = 2, parameters = 1;
   template <class T, class G>
-  static void factors(const BasicPair<G>& p, const T* z, T* values) {
+  [[gnu::always_inline]] static void factors(const BasicPair<G>& p, const T* z, T* values) {
     values[0] = T(white_lambert<G>());
     values[1] = blinn_phong_lobe(z[0], p);
   }

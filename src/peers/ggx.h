@@ -10,7 +10,7 @@ namespace goniofit {
 
 /// D = sec⁴/(pi alpha_x alpha_y (1 + tan²_x/alpha_x² + tan²_y/alpha_y²)²), z = ln alpha.
 template <class T, class G>
-[[nodiscard]] T ggx_distribution(const T& z_x, const T& z_y, const BasicPair<G>& p) {
+[[nodiscard]] [[gnu::always_inline]] inline T ggx_distribution(const T& z_x, const T& z_y, const BasicPair<G>& p) {
   using namespace math;
   const G s_z2 = p.s_z * p.s_z;
   const G sec2 = 1.0 + p.tan2_b;
@@ -18,7 +18,7 @@ template <class T, class G>
   return sec2 * sec2 / pi_of<G>() * exp(-z_x - z_y) / (tail * tail);
 }
 template <class T, class G>
-[[nodiscard]] T ggx_distribution(const T& z, const BasicPair<G>& p) {
+[[nodiscard]] [[gnu::always_inline]] inline T ggx_distribution(const T& z, const BasicPair<G>& p) {
   using namespace math;
   const G sec2 = 1.0 + p.tan2_b;
   const T tail = 1.0 + p.tan2_b * exp(-2.0 * z);
@@ -28,7 +28,8 @@ template <class T, class G>
 /// G/(4 cos_i cos_r) = ½/(cos_r w(L) + cos_i w(V)), w = sqrt(cos² + alpha² sin²) with the alpha of the direction's
 /// azimuth: no quotient of vanishing terms at grazing.
 template <class T, class G>
-[[nodiscard]] T smith_ggx_over_cosines(const T& alpha2_i, const T& alpha2_r, const BasicPair<G>& p) {
+[[nodiscard]] [[gnu::always_inline]] inline T smith_ggx_over_cosines(const T& alpha2_i, const T& alpha2_r,
+                                                                     const BasicPair<G>& p) {
   using namespace math;
   const T w_i = sqrt(p.cos_i * p.cos_i + alpha2_i * sin2_i(p));
   const T w_r = sqrt(p.cos_r * p.cos_r + alpha2_r * sin2_r(p));
@@ -38,7 +39,7 @@ template <class T, class G>
 struct Ggx {
   static constexpr std::size_t columns = 2, parameters = 1;
   template <class T, class G>
-  static void factors(const BasicPair<G>& p, const T* z, T* values) {
+  [[gnu::always_inline]] static void factors(const BasicPair<G>& p, const T* z, T* values) {
     using namespace math;
     const T alpha2 = exp(2.0 * z[0]);
     values[0] = T(white_lambert<G>());
@@ -49,7 +50,7 @@ struct Ggx {
 struct GgxAnisotropic {
   static constexpr std::size_t columns = 2, parameters = 2;
   template <class T, class G>
-  static void factors(const BasicPair<G>& p, const T* z, T* values) {
+  [[gnu::always_inline]] static void factors(const BasicPair<G>& p, const T* z, T* values) {
     using namespace math;
     const T x2 = exp(2.0 * z[0]);
     const T y2 = exp(2.0 * z[1]);

@@ -13,14 +13,14 @@ namespace goniofit {
 
 /// f of a white Lambert surface.
 template <class G>
-[[nodiscard]] inline G white_lambert() {
+[[nodiscard]] [[gnu::always_inline]] inline G white_lambert() {
   return 1.0 / math::pi_of<G>();
 }
 
 /// Beckmann's D with alpha = e^z, the integral of D cos over the hemisphere being 1: exp(-tan²θ_b/α²)/(π α² cos⁴θ_b).
 /// One exponential, so that no factor leaves the range of doubles before the product does.
 template <class T, class G>
-[[nodiscard]] inline T beckmann_distribution(const T& z, const BasicPair<G>& p) {
+[[nodiscard]] [[gnu::always_inline]] inline T beckmann_distribution(const T& z, const BasicPair<G>& p) {
   using namespace math;
   const G sec2 = 1.0 + p.tan2_b;
   return sec2 * sec2 / pi_of<G>() * exp(-2.0 * z - p.tan2_b * exp(-2.0 * z));
@@ -28,11 +28,11 @@ template <class T, class G>
 
 /// sin² of the two zenith angles, without the cancellation of 1 - cos² near the normal.
 template <class G>
-[[nodiscard]] inline G sin2_i(const BasicPair<G>& p) {
+[[nodiscard]] [[gnu::always_inline]] inline G sin2_i(const BasicPair<G>& p) {
   return p.one_minus_cos_i * (1.0 + p.cos_i);
 }
 template <class G>
-[[nodiscard]] inline G sin2_r(const BasicPair<G>& p) {
+[[nodiscard]] [[gnu::always_inline]] inline G sin2_r(const BasicPair<G>& p) {
   return p.one_minus_cos_r * (1.0 + p.cos_r);
 }
 

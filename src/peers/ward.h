@@ -11,7 +11,7 @@ namespace goniofit {
 
 /// z_x = ln alpha_x, z_y = ln alpha_y. Two square roots: the product of two grazing cosines could underflow.
 template <class T, class G>
-[[nodiscard]] T ward_lobe(const T& z_x, const T& z_y, const BasicPair<G>& p) {
+[[nodiscard]] [[gnu::always_inline]] inline T ward_lobe(const T& z_x, const T& z_y, const BasicPair<G>& p) {
   using namespace math;
   const G s_z2 = p.s_z * p.s_z;
   const T slope2 = p.s_x2 / s_z2 * exp(-2.0 * z_x) + p.s_y2 / s_z2 * exp(-2.0 * z_y);
@@ -20,7 +20,7 @@ template <class T, class G>
 
 /// The same for alpha_x = alpha_y, by tan² of the facet alone.
 template <class T, class G>
-[[nodiscard]] T ward_lobe(const T& z, const BasicPair<G>& p) {
+[[nodiscard]] [[gnu::always_inline]] inline T ward_lobe(const T& z, const BasicPair<G>& p) {
   using namespace math;
   return exp(-p.tan2_b * exp(-2.0 * z) - 2.0 * z) / (4.0 * pi_of<G>() * (sqrt(p.cos_i) * sqrt(p.cos_r)));
 }
@@ -28,7 +28,7 @@ template <class T, class G>
 struct Ward {
   static constexpr std::size_t columns = 2, parameters = 1;
   template <class T, class G>
-  static void factors(const BasicPair<G>& p, const T* z, T* values) {
+  [[gnu::always_inline]] static void factors(const BasicPair<G>& p, const T* z, T* values) {
     values[0] = T(white_lambert<G>());
     values[1] = ward_lobe(z[0], p);
   }
@@ -37,7 +37,7 @@ struct Ward {
 struct WardAnisotropic {
   static constexpr std::size_t columns = 2, parameters = 2;
   template <class T, class G>
-  static void factors(const BasicPair<G>& p, const T* z, T* values) {
+  [[gnu::always_inline]] static void factors(const BasicPair<G>& p, const T* z, T* values) {
     values[0] = T(white_lambert<G>());
     values[1] = ward_lobe(z[0], z[1], p);
   }

@@ -22,18 +22,3 @@ inline constexpr std::array all_instruction_sets{InstructionSet::sse2, Instructi
 }
 
 }  // namespace goniofit
-
-// A function of this name for each instruction set, in an array that InstructionSet indexes:
-//   GONIOFIT_FOR_EACH_INSTRUCTION_SET(name, void, (double* x, std::size_t n), (x, n), body)
-// where body is an always_inline function. The attributes go with the function: no inline function of the library is
-// compiled for instructions that a processor may lack.
-#if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__)
-#define GONIOFIT_TARGET_AVX2 [[gnu::target("arch=x86-64-v3"), gnu::flatten, gnu::noinline]]
-#define GONIOFIT_TARGET_AVX512 [[gnu::target("arch=x86-64-v4"), gnu::flatten, gnu::noinline]]
-#define GONIOFIT_TARGET_SSE2 [[gnu::flatten, gnu::noinline]]
-#else
-// Instrumented code is not vectorised anyway, and three copies of it take the compiler minutes.
-#define GONIOFIT_TARGET_AVX2
-#define GONIOFIT_TARGET_AVX512
-#define GONIOFIT_TARGET_SSE2
-#endif

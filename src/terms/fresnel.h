@@ -1,6 +1,8 @@
 #pragma once
 // Fresnel reflectance F of unpolarised light, by power. u is the cosine between H and V.
 
+#include <type_traits>
+
 #include "scalar.h"
 
 namespace goniofit {
@@ -50,29 +52,35 @@ struct ComplexRoot {
   T a, b;
 };
 template <class T>
-[[nodiscard]] ComplexRoot<T> complex_root(const T& p, const T& q) {
+[[nodiscard]] [[gnu::always_inline]] inline ComplexRoot<T> complex_root(const T& p, const T& q) {
   using namespace math;
-  const T real = p < 0.0 ? T(-p) : p;
+  const T real = select(p < 0.0, T(-p), p);
   const T imaginary = 2.0 * q;
   const bool steep = imaginary > real;
-  const T larger = steep ? imaginary : real;
-  if (!(larger > 0.0)) return {T(0.0), T(0.0)};
-  const T ratio = (steep ? real : imaginary) / larger;
-  const T root = sqrt(0.5 * (larger * sqrt(1.0 + ratio * ratio) + real));
-  if (p >= 0.0) return {root, q / root};
-  return {q / root, root};
+  const T larger = select(steep, imaginary, real);
+  const bool zero = !(larger > 0.0);
+  const T scale = select(zero, T(1.0), larger);
+  const T ratio = select(steep, real, imaginary) / scale;
+  const T root = sqrt(0.5 * (scale * sqrt(1.0 + ratio * ratio) + real));
+  const T greater = select(zero, T(0.0), root);
+  const T smaller = select(zero, T(0.0), T(q / root));
+  return {select(p >= 0.0, greater, smaller), select(p >= 0.0, smaller, greater)};
 }
 
 /// (a + ib)² = (n + i kappa)² - sin². Rp carries a factor u throughout, which removes its 0/0 at grazing.
 template <class T, class G>
-[[nodiscard]] FresnelParts<T> fresnel_parts(const T& n, const T& kappa, const G& u, const G& one_minus_u) {
+[[nodiscard]] [[gnu::always_inline]] inline FresnelParts<T> fresnel_parts(const T& n, const T& kappa, const G& u,
+                                                                          const G& one_minus_u) {
+  using namespace math;
   const G sin2 = one_minus_u * (1.0 + u);
   // n² - sin² as (n² - 1) + u² towards grazing, accurate for n near 1, and as it stands near the normal, for n near 0.
   const T contrast = (n - 1.0) * (n + 1.0);
-  const T p = (sin2 < 0.5 ? T(n * n - sin2) : T(contrast + u * u)) - kappa * kappa;
+  const T p = select(sin2 < 0.5, T(n * n - sin2), T(contrast + u * u)) - kappa * kappa;
   const auto [a, b] = complex_root(p, T(n * kappa));
   // a - u = (a² - u²)/(a + u) keeps the weak reflection of n near 1, a difference of near equals otherwise.
-  const T a_less_u = p >= 0.0 && a + u > 0.0 ? T((contrast - kappa * kappa + b * b) / (a + u)) : T(a - u);
+  const bool divides = a + u > 0.0;
+  const T quotient = (contrast - kappa * kappa + b * b) / select(divides, T(a + u), T(1.0));
+  const T a_less_u = select(bool((p >= 0.0) & divides), quotient, T(a - u));
   FresnelParts<T> f;
   f.reflected_s = a_less_u * a_less_u + b * b;
   f.total_s = (a + u) * (a + u) + b * b;
@@ -83,10 +91,25 @@ template <class T, class G>
   return f;
 }
 
-/// 1 - ½(Rs + Rp), in which 1 - Rs = lost_s / total_s and so on: no difference of near equals.
+/// 1 - ½(Rs + Rp), in which 1 - Rs = lost_s / total_s and so on: no difference of near equals. 1 where u² underflows
+/// and n = 1.
 template <class T>
-[[nodiscard]] T transmission_of(const FresnelParts<T>& f) {
-  return f.lost_s / f.total_s + 0.5 * (f.reflected_s / f.total_s) * (f.lost_p / f.total_p);
+[[nodiscard]] [[gnu::always_inline]] inline T transmission_of(const FresnelParts<T>& f) {
+  using namespace math;
+  const bool some = f.total_s > 0.0;
+  const T total_s = select(some, f.total_s, T(1.0));
+  const T total_p = select(some, f.total_p, T(1.0));
+  return select(some, T(f.lost_s / total_s + 0.5 * (f.reflected_s / total_s) * (f.lost_p / total_p)), T(1.0));
+}
+
+/// ½(Rs + Rp); 0 where u² underflows and n = 1.
+template <class T>
+[[nodiscard]] [[gnu::always_inline]] inline T reflection_of(const FresnelParts<T>& f) {
+  using namespace math;
+  const bool some = f.total_s > 0.0;
+  const T total_s = select(some, f.total_s, T(1.0));
+  const T total_p = select(some, f.total_p, T(1.0));
+  return select(some, T(0.5 * (f.reflected_s / total_s) * (1.0 + f.reflected_p / total_p)), T(0.0));
 }
 
 /// Tier `exact`: F = ½(Rs + Rp) of n + i kappa, n > 0, kappa >= 0, to 1e-15, for kappa up to 1e6 and every u (for n = 1
@@ -95,19 +118,22 @@ template <class T>
 /// derivative comes of what is not: towards grazing those of numerator and divisor cancel. At the critical angle the
 /// derivative by n is infinite on one side; the one returned there is finite.
 template <class T, class G>
-[[nodiscard]] T fresnel_exact(const T& n, const T& kappa, const G& u, const G& one_minus_u) {
+[[nodiscard]] [[gnu::always_inline]] inline T fresnel_exact(const T& n, const T& kappa, const G& u,
+                                                            const G& one_minus_u) {
+  using namespace math;
   const FresnelParts<T> f = fresnel_parts(n, kappa, u, one_minus_u);
-  if (!(f.total_s > 0.0)) return T(0.0);  // u² underflows and n = 1
-  if (2.0 * f.reflected_s > f.total_s) return 1.0 - transmission_of(f);
-  return 0.5 * (f.reflected_s / f.total_s) * (1.0 + f.reflected_p / f.total_p);
+  if constexpr (std::is_floating_point_v<G> && !std::is_same_v<T, G>) {
+    return select(2.0 * f.reflected_s > f.total_s, T(1.0 - transmission_of(f)), reflection_of(f));
+  } else {
+    return reflection_of(f);
+  }
 }
 
 /// 1 - F of tier `exact`, to 1e-15.
 template <class T, class G>
-[[nodiscard]] T transmission_exact(const T& n, const T& kappa, const G& c, const G& one_minus_c) {
-  const FresnelParts<T> f = fresnel_parts(n, kappa, c, one_minus_c);
-  if (!(f.total_s > 0.0)) return T(1.0);
-  return transmission_of(f);
+[[nodiscard]] [[gnu::always_inline]] inline T transmission_exact(const T& n, const T& kappa, const G& c,
+                                                                 const G& one_minus_c) {
+  return transmission_of(fresnel_parts(n, kappa, c, one_minus_c));
 }
 
 /// F of a wavelength whose reflectance at the normal is f0, where only mean constants n + i kappa are known (Cook &

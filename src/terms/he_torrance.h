@@ -133,6 +133,23 @@ class ModerateRoughness {
   std::vector<ChebyshevPatch> patch_;
 };
 
+/// G(xi) = e(w)/xi, so that y G(xi) is the exponent at the saddle point.
+[[nodiscard]] inline double saddle_decay(double xi) {
+  const double w = saddle_exponent(0.0, xi);
+  return w > 0.0 ? (2.0 + std::expm1(-w) / w) * std::exp(-w) : 1.0;
+}
+
+/// P(r, xi) = ln(g W) + y G(xi), r = 1/g.
+[[nodiscard]] inline double log_prefactor(double r, double xi) {
+  const double w = saddle_exponent(0.0, xi);
+  const double inverse_peak = r * std::exp(-w);
+  if (inverse_peak < 0.01) {
+    return std::log1p(saddle_correction(1.0 / (1.0 + 2.0 * w), inverse_peak).sum) - w - 0.5 * std::log1p(2.0 * w);
+  }
+  const double log_g = -std::log(r);
+  return log_series<false>(log_g, xi / (r * r), w).value + log_g + xi / r * saddle_decay(xi);
+}
+
 /// ln W = -ln g - y G(xi) + P(1/g, xi) for ln g >= 3.6, over quarter octaves of 1 + 8 xi.
 class LargeRoughness {
  public:
@@ -142,12 +159,12 @@ class LargeRoughness {
     const double least_g = std::exp(begin);
     for (std::size_t c = 0; log_w_anywhere<false>(begin, xi_at(c, -1.0) * least_g * least_g).value > log_w_covered;
          ++c) {
-      columns_.push_back({ChebyshevLine::fit([&](double t) { return exponent(xi_at(c, t)); }), {}});
+      columns_.push_back({ChebyshevLine::fit([&](double t) { return saddle_decay(xi_at(c, t)); }), {}});
       for (std::size_t b = 0; b < 2; ++b) {
         const double r0 = band_[b];
         const double r1 = band_[b + 1];
         columns_.back().p[b] = ChebyshevPatch::fit(
-            [&](double a, double t) { return prefactor(r0 + 0.5 * (1.0 + a) * (r1 - r0), xi_at(c, t)); });
+            [&](double a, double t) { return log_prefactor(r0 + 0.5 * (1.0 + a) * (r1 - r0), xi_at(c, t)); });
       }
     }
   }
@@ -184,22 +201,6 @@ class LargeRoughness {
   };
 
   [[nodiscard]] static double xi_at(std::size_t column, double t) { return (Column::v_at(column, t) - 1.0) / scale; }
-
-  /// G(xi) = e(w)/xi.
-  [[nodiscard]] static double exponent(double xi) {
-    const double w = saddle_exponent(0.0, xi);
-    return w > 0.0 ? (2.0 + std::expm1(-w) / w) * std::exp(-w) : 1.0;
-  }
-  /// P(r, xi), r = 1/g.
-  [[nodiscard]] static double prefactor(double r, double xi) {
-    const double w = saddle_exponent(0.0, xi);
-    const double inverse_peak = r * std::exp(-w);
-    if (inverse_peak < 0.01) {
-      return std::log1p(saddle_correction(1.0 / (1.0 + 2.0 * w), inverse_peak).sum) - w - 0.5 * std::log1p(2.0 * w);
-    }
-    const double log_g = -std::log(r);
-    return log_series<false>(log_g, xi / (r * r), w).value + log_g + xi / r * exponent(xi);
-  }
 
   std::array<double, 3> band_{0.0, 0.008, 1.0001 * std::exp(-begin)};
   std::array<double, 2> per_band_{2.0 / (band_[1] - band_[0]), 2.0 / (band_[2] - band_[1])};

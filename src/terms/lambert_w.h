@@ -44,13 +44,13 @@ template <class T>
   return select(z > least, w, z);
 }
 
-/// W0(k²), 0 <= k <= 1e300, to 2 eps, where k² itself leaves the range of doubles. The start saturates at k = 1e150;
-/// the steps are nearly linear up there and mend that.
+/// W0(k²), 0 <= k <= 1e300 (in single precision 1e30), to 2 eps, where k² itself leaves the range of the type. The
+/// start saturates at k = 1e150 (1e18); the steps are nearly linear up there and mend that. Below `least` it is k².
 template <class T>
-[[nodiscard]] [[gnu::always_inline]] inline T lambert_w0_of_square(const T& k) {
+[[nodiscard]] [[gnu::always_inline]] inline T lambert_w0_of_square(const T& k, double least_k = 1e-145) {
   using namespace math;
-  const T least = T(1e-145);
-  const T most = T(1e150);
+  const T least = T(least_k);
+  const T most = T(std::numeric_limits<T>::digits <= 24 ? 1e18 : 1e150);
   const T safe = select(k > least, k, least);
   const T start_at = select(safe < most, safe, most);
   T w = lambert::start(T(start_at * start_at));

@@ -1,14 +1,16 @@
 #pragma once
 // One lane of a vectorised loop: a number whose exp, log and the like are branch-free and inline, so that the compiler
-// turns a loop over lanes into vector instructions with nothing called in between (twice as fast as with the C
-// library's vector functions, which spill and reload every constant). The formulas of the terms, templates on their
-// scalar, find these functions by the type.
+// turns a loop over lanes into vector instructions with nothing called in between (the C library's vector functions
+// spill and reload around every call). The formulas of the terms, templates on their scalar, find these functions by
+// the type.
 //
-// All have 1 to 2 eps of relative error within the ranges named; beyond them the result is the one at the range's end.
-// No FMA is assumed: the compiler contracts where the instruction set has one.
+// Polynomials are interpolants at Chebyshev points, computed with 40 digits; the errors named are relative and include
+// the rounding. No FMA is assumed: the compiler contracts where the instruction set has one.
 
+#include <array>
 #include <bit>
 #include <concepts>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <type_traits>
@@ -36,6 +38,8 @@ struct Lane {
   [[gnu::always_inline]] friend constexpr bool operator>(Lane a, Lane b) noexcept { return a.v > b.v; }
   [[gnu::always_inline]] friend constexpr bool operator<=(Lane a, Lane b) noexcept { return a.v <= b.v; }
   [[gnu::always_inline]] friend constexpr bool operator>=(Lane a, Lane b) noexcept { return a.v >= b.v; }
+  Lane& operator+=(Lane a) noexcept { return *this = *this + a; }
+  Lane& operator*=(Lane a) noexcept { return *this = *this * a; }
 };
 
 namespace lane {
@@ -46,9 +50,11 @@ template <>
 struct Format<double> {
   using Bits = std::uint64_t;
   static constexpr int mantissa = 52, bias = 1023;
-  static constexpr double round = 0x1.8p52;                       // x + round has the integer nearest x in its low bits
-  static constexpr double ln2_high = 6.93147180369123816490e-01;  // 21 trailing zeros
-  static constexpr double ln2_low = 1.90821492927058770002e-10;
+  static constexpr double round = 0x1.8p52;            // x + round has the integer nearest x in its low bits
+  static constexpr double ln2_high = 0x1.62e42feep-1;  // 21 trailing zeros: products with small integers are exact
+  static constexpr double ln2_low = 0x1.a39ef35793c76p-33;
+  // The result times whatever else a formula has shall be no denormal number, which would cost a hundred times the
+  // rest.
   static constexpr double least_exponent = -690.0, greatest_exponent = 709.0;
   static constexpr Bits root_half = 0x3fe6a09e667f3bcd;
 };
@@ -57,20 +63,41 @@ struct Format<float> {
   using Bits = std::uint32_t;
   static constexpr int mantissa = 23, bias = 127;
   static constexpr float round = 0x1.8p23F;
-  static constexpr float ln2_high = 0.693359375F;
-  static constexpr float ln2_low = -2.12194440e-4F;
-  static constexpr float least_exponent = -80.0F, greatest_exponent = 88.0F;
+  static constexpr float ln2_high = 0x1.63p-1F;
+  static constexpr float ln2_low = -0x1.bd0106p-13F;
+  static constexpr float least_exponent = -64.0F, greatest_exponent = 88.0F;
   static constexpr Bits root_half = 0x3f3504f3;
 };
 
 template <class Real>
-[[nodiscard]] [[gnu::always_inline]] inline Real clamped(Real x) noexcept {
-  using F = Format<Real>;
-  x = x > F::least_exponent ? x : F::least_exponent;
-  return x < F::greatest_exponent ? x : F::greatest_exponent;
+[[nodiscard]] [[gnu::always_inline]] inline Real at_least(Real bound, Real x) noexcept {
+  return x > bound ? x : bound;
+}
+template <class Real>
+[[nodiscard]] [[gnu::always_inline]] inline Real at_most(Real bound, Real x) noexcept {
+  return x < bound ? x : bound;
 }
 
-/// x = n ln 2 + r, |r| <= ½ ln 2: e^r - 1 and the bits that multiply a number in [½, 2] by 2^n.
+/// Sum of c[k] x^k, in four interleaved chains where it is long: Horner's rule alone waits for itself.
+template <class Real, std::size_t n>
+[[nodiscard]] [[gnu::always_inline]] inline Real polynomial(const std::array<Real, n>& c, Real x) noexcept {
+  const auto horner = [&](std::size_t first, std::size_t step, Real y) __attribute__((always_inline)) {
+    std::size_t k = first + (n - 1 - first) / step * step;
+    Real sum = c[k];
+    while (k >= step + first) {
+      k -= step;
+      sum = sum * y + c[k];
+    }
+    return sum;
+  };
+  if constexpr (n < 6) return horner(0, 1, x);
+  const Real x2 = x * x;
+  if constexpr (n < 12) return horner(0, 2, x2) + x * horner(1, 2, x2);
+  const Real x4 = x2 * x2;
+  return (horner(0, 4, x4) + x * horner(1, 4, x4)) + x2 * (horner(2, 4, x4) + x * horner(3, 4, x4));
+}
+
+/// x = n ln 2 + r, |r| <= ½ ln 2, and the bits that multiply a number of about 1 by 2^n.
 template <class Real>
 struct Reduced {
   Real r;
@@ -88,30 +115,34 @@ template <class Real>
   return std::bit_cast<Real>(std::bit_cast<typename Format<Real>::Bits>(x) + power);
 }
 
-/// (e^r - 1 - r)/r² for |r| <= ½ ln 2: Taylor's series, even and odd powers apart for a short chain.
-[[nodiscard]] [[gnu::always_inline]] inline double exp_tail(double r) noexcept {
-  const double s = r * r;
-  const double s2 = s * s;
-  const double low = (1.0 / 2 + r * (1.0 / 6)) + s * (1.0 / 24 + r * (1.0 / 120));
-  const double middle = (1.0 / 720 + r * (1.0 / 5040)) + s * (1.0 / 40320 + r * (1.0 / 362880));
-  const double high = (1.0 / 3628800 + r * (1.0 / 39916800)) + s * (1.0 / 479001600 + r * (1.0 / 6227020800));
-  return low + s2 * (middle + s2 * high);
-}
-[[nodiscard]] [[gnu::always_inline]] inline float exp_tail(float r) noexcept {
-  const float s = r * r;
-  return (1.0F / 2 + r * (1.0F / 6)) + s * ((1.0F / 24 + r * (1.0F / 120)) + s * (1.0F / 720 + r * (1.0F / 5040)));
+/// e^r - 1 for |r| <= ½ ln 2, as r + r² times a polynomial.
+template <class Real>
+[[nodiscard]] [[gnu::always_inline]] inline Real exp_rise(Real r) noexcept {
+  if constexpr (std::is_same_v<Real, float>) {
+    constexpr std::array<float, 5> c{0.5F, 0.16666576989698775683F, 0.041666554617204574203F, 0.0083631790527225773704F,
+                                     0.0013926183587713494542F};
+    return r + r * r * polynomial(c, r);
+  } else {
+    constexpr std::array<double, 10> c{0.50000000000000010221,   0.16666666666666667453,   0.041666666666624127873,
+                                       0.0083333333333300618325, 0.0013888888917213716901, 0.00019841269863053616878,
+                                       2.4801521295954375131e-5, 2.7557268459997064772e-6, 2.7620088445409748161e-7,
+                                       2.5100385495510319078e-8};
+    return r + r * r * polynomial(c, r);
+  }
 }
 
-/// atanh-like series of ln(1 + f), f = m - 1 with m in [√½, √2]: s = f/(2 + f), R(s²) as in ln(1+f) = f - ½f² + s(½f² +
-/// R).
-[[nodiscard]] [[gnu::always_inline]] inline double log_tail(double s2) noexcept {
-  const double s4 = s2 * s2;
-  const double odd = 2.0 / 3 + s4 * (2.0 / 7 + s4 * (2.0 / 11 + s4 * (2.0 / 15 + s4 * (2.0 / 19))));
-  const double even = 2.0 / 5 + s4 * (2.0 / 9 + s4 * (2.0 / 13 + s4 * (2.0 / 17)));
-  return s2 * (odd + s2 * even);
-}
-[[nodiscard]] [[gnu::always_inline]] inline float log_tail(float s2) noexcept {
-  return s2 * (2.0F / 3 + s2 * (2.0F / 5 + s2 * (2.0F / 7 + s2 * (2.0F / 9))));
+/// (ln((1+s)/(1-s))/s - 2)/s² as a function of s², for (1+s)/(1-s) in [√½, √2].
+template <class Real>
+[[nodiscard]] [[gnu::always_inline]] inline Real log_tail(Real s2) noexcept {
+  if constexpr (std::is_same_v<Real, float>) {
+    constexpr std::array<float, 3> c{0.66666685045156029067F, 0.39988778282162807727F, 0.29580053043188442144F};
+    return polynomial(c, s2);
+  } else {
+    constexpr std::array<double, 7> c{0.66666666666666696883, 0.39999999999899443233, 0.28571428626003268742,
+                                      0.22222211130259877029, 0.18182889455674946039, 0.15331710618210771568,
+                                      0.14616585424888621989};
+    return polynomial(c, s2);
+  }
 }
 
 /// ln x of a normal x > 0 whose distance from 1 is known: where x is near 1 that is what carries the digits.
@@ -128,27 +159,56 @@ template <class Real>
   const Real k = std::bit_cast<Real>(exponent | integer) - (std::bit_cast<Real>(integer) + Real(F::bias));
   const Real m = std::bit_cast<Real>(bits - (exponent << F::mantissa) + one);
   const Real f = k == Real(0) ? x_minus_1 : m - Real(1);
+  // ln(1+f) = f - s (f - R(s²)) with s = f/(2+f): the rounding of the quotient meets a small factor only.
   const Real s = f / (Real(2) + f);
-  const Real half_f2 = Real(0.5) * f * f;
-  return k * F::ln2_high - ((half_f2 - (s * (half_f2 + log_tail(s * s)) + k * F::ln2_low)) - f);
+  const Real s2 = s * s;
+  return k * F::ln2_high + (f - (s * (f - s2 * log_tail(s2)) - k * F::ln2_low));
+}
+
+/// e^(x²) erfc(x) (1 + 2x) in t = (x - 3.75)/(x + 3.75), 0 <= x <= 26.
+template <class Real>
+[[nodiscard]] [[gnu::always_inline]] inline Real scaled_erfc(Real t) noexcept {
+  if constexpr (std::is_same_v<Real, float>) {
+    constexpr std::array<float, 10> c{1.237512673880656839F,    -0.140244626846854223F,  0.003583761575123683989F,
+                                      0.08236593905636578687F,  -0.1087854244733703111F, 0.09176125402449888974F,
+                                      -0.05881627576724413423F, 0.02965110054623193511F, -0.009399870745288116766F,
+                                      0.000561668056170812754F};
+    return polynomial(c, t);
+  } else {
+    constexpr std::array<double, 22> c{
+        1.237512630837827642,      -0.1402405985855470586,    0.003585415485444151819,    0.08227673849014656948,
+        -0.1088039301406586477,    0.09230432116076653835,    -0.0586933986124147064,     0.02836227740462939075,
+        -0.009746579316659303658,  0.001755626058766035699,   0.0002937122073969962361,   -0.0002901556349445583969,
+        0.00005165435660817465722, 0.00002239108670441713105, -0.00001145532009044481139, -9.918027424842235199e-7,
+        1.76409716604340991e-6,    -2.820059376521186849e-8,  -2.620329075412501233e-7,   -2.249975959174353957e-9,
+        3.221412520213950317e-8,   6.048628409906214402e-9};
+    return polynomial(c, t);
+  }
 }
 
 }  // namespace lane
 
-/// e^x, x in [-690, 709] (float [-80, 88]): the result times whatever else a formula has is no denormal number, which
-/// would cost a hundred times the rest.
+/// e^x, x in [-690, 709] (float [-64, 88]); beyond, that of the range's end.
 template <class Real>
 [[nodiscard]] [[gnu::always_inline]] inline Lane<Real> exp(Lane<Real> x) noexcept {
-  const auto [r, power] = lane::reduce(lane::clamped(x.v));
-  return lane::scaled(Real(1) + (r + r * r * lane::exp_tail(r)), power);
+  using F = lane::Format<Real>;
+  const auto [r, power] = lane::reduce(lane::at_most(F::greatest_exponent, lane::at_least(F::least_exponent, x.v)));
+  return lane::scaled(Real(1) + lane::exp_rise(r), power);
 }
 
-/// e^x - 1 over the same range, relatively.
+/// The same where x is known to be below the upper end.
+template <class Real>
+[[nodiscard]] [[gnu::always_inline]] inline Lane<Real> exp_of_negative(Lane<Real> x) noexcept {
+  const auto [r, power] = lane::reduce(lane::at_least(lane::Format<Real>::least_exponent, x.v));
+  return lane::scaled(Real(1) + lane::exp_rise(r), power);
+}
+
+/// e^x - 1, x <= the upper end.
 template <class Real>
 [[nodiscard]] [[gnu::always_inline]] inline Lane<Real> expm1(Lane<Real> x) noexcept {
-  const auto [r, power] = lane::reduce(lane::clamped(x.v));
+  const auto [r, power] = lane::reduce(lane::at_least(lane::Format<Real>::least_exponent, x.v));
   const Real scale = lane::scaled(Real(1), power);
-  return scale * (r + r * r * lane::exp_tail(r)) + (scale - Real(1));
+  return scale * lane::exp_rise(r) + (scale - Real(1));
 }
 
 /// ln x of a normal x > 0.
@@ -157,19 +217,26 @@ template <class Real>
   return lane::log(x.v, x.v - Real(1));
 }
 
-/// ln(1 + x), x > -1, relatively.
+/// ln(1 + x), x > -1.
 template <class Real>
 [[nodiscard]] [[gnu::always_inline]] inline Lane<Real> log1p(Lane<Real> x) noexcept {
   return lane::log(Real(1) + x.v, x.v);
 }
 
-/// ln(1 - e^x), x < 0: the two forms of math::log_one_minus_exp are one, since both are at hand.
+/// erfc x, 0 <= x; 1e-296 and less come back as that.
 template <class Real>
-[[nodiscard]] [[gnu::always_inline]] inline Lane<Real> log_one_minus_exp(Lane<Real> x) noexcept {
-  const auto [r, power] = lane::reduce(lane::clamped(x.v));
-  const Real scale = lane::scaled(Real(1), power);
-  const Real rise = scale * (r + r * r * lane::exp_tail(r));
-  return lane::log((Real(1) - scale) - rise, -(scale + rise));
+[[nodiscard]] [[gnu::always_inline]] inline Lane<Real> erfc(Lane<Real> x) noexcept {
+  constexpr Real reach = std::is_same_v<Real, float> ? Real(8.9) : Real(26);
+  const Real a = lane::at_most(reach, x.v);
+  const Real inverse = Real(1) / ((a + Real(3.75)) * (Real(1) + Real(2) * a));
+  const Real t = (a - Real(3.75)) * (Real(1) + Real(2) * a) * inverse;
+  return exp_of_negative(Lane<Real>(-a * a)).v * (a + Real(3.75)) * inverse * lane::scaled_erfc(t);
+}
+
+/// By value: a choice between references is one between addresses, which no vector instruction makes.
+template <class Real>
+[[nodiscard]] [[gnu::always_inline]] inline Lane<Real> select(bool condition, Lane<Real> yes, Lane<Real> no) noexcept {
+  return condition ? yes.v : no.v;
 }
 
 template <class Real>

@@ -1,0 +1,201 @@
+#include "brdf/block_loops.h"
+#include "geometry/direction.h"
+#include "support/vectorised.h"
+#include "terms/lane_math.h"
+
+// The formulas of make_pair(Direction, Direction), which says why they are these; branch-free.
+
+namespace goniofit::block {
+
+namespace {
+
+template <class In>
+constexpr In horizon = std::is_same_v<In, float> ? In(1e-18) : In(least_cosine);
+
+template <class In>
+struct Vectors {
+  In l_x, l_y, l_z, v_x, v_y, v_z;
+
+  [[gnu::always_inline]] static Vectors at(const std::array<const In*, 6>& d, std::size_t k) {
+    return {d[0][k], d[1][k], off_the_horizon(d[2][k]), d[3][k], d[4][k], off_the_horizon(d[5][k])};
+  }
+
+ private:
+  [[gnu::always_inline]] static In off_the_horizon(In z) {
+    const In raised = z < horizon<In> ? horizon<In> : z;
+    return z > In(0) ? raised : z;
+  }
+};
+
+template <class In>
+[[gnu::always_inline]] inline In square(In x) {
+  return x * x;
+}
+
+template <class Real, class In>
+struct Sum {
+  using Arguments = PrepareArguments<Real, In>;
+
+  [[gnu::always_inline]] static void run(const Arguments& a) {
+    const auto direction = a.direction;
+    Real* const cos_i = a[Field::cos_i];
+    Real* const cos_r = a[Field::cos_r];
+    Real* const s_z = a[Field::s_z];
+    Real* const s_h2 = a[Field::s_h2];
+    Real* const tan2_b = a[Field::tan2_b];
+    const std::size_t n = a.n;
+#pragma GCC ivdep
+    for (std::size_t k = 0; k < n; ++k) {
+      const auto d = Vectors<In>::at(direction, k);
+      const In z = d.l_z + d.v_z;
+      const In h2 = square(d.l_x + d.v_x) + square(d.l_y + d.v_y);
+      cos_i[k] = static_cast<Real>(d.l_z);
+      cos_r[k] = static_cast<Real>(d.v_z);
+      s_z[k] = static_cast<Real>(z);
+      s_h2[k] = static_cast<Real>(h2);
+      tan2_b[k] = static_cast<Real>(h2 / square(z));
+    }
+  }
+};
+
+// The same with the zenith angles' parts: one quotient for all; near the horizon 1 - z as it stands.
+template <class Real, class In, bool logarithms>
+struct Zenith {
+  using Arguments = PrepareArguments<Real, In>;
+
+  [[gnu::always_inline]] static void run(const Arguments& a) {
+    const auto direction = a.direction;
+    Real* const cos_i = a[Field::cos_i];
+    Real* const cos_r = a[Field::cos_r];
+    Real* const s_z = a[Field::s_z];
+    Real* const s_h2 = a[Field::s_h2];
+    Real* const tan2_b = a[Field::tan2_b];
+    Real* const rest_i = a[Field::one_minus_cos_i];
+    Real* const rest_r = a[Field::one_minus_cos_r];
+    Real* const log_i = a[Field::log_one_minus_cos_i];
+    Real* const log_r = a[Field::log_one_minus_cos_r];
+    const std::size_t n = a.n;
+#pragma GCC ivdep
+    for (std::size_t k = 0; k < n; ++k) {
+      const auto d = Vectors<In>::at(direction, k);
+      const In z = d.l_z + d.v_z;
+      const In h2 = square(d.l_x + d.v_x) + square(d.l_y + d.v_y);
+      const In up_i = In(1) + d.l_z;
+      const In up_r = In(1) + d.v_z;
+      const In over_all = In(1) / (up_i * up_r * square(z));
+      const In over_z2 = up_i * up_r * over_all;
+      const In near = square(z) * over_all;
+      const In near_i = (square(d.l_x) + square(d.l_y)) * up_r * near;
+      const In near_r = (square(d.v_x) + square(d.v_y)) * up_i * near;
+      const In i = d.l_z > In(0.5) ? near_i : In(1) - d.l_z;
+      const In r = d.v_z > In(0.5) ? near_r : In(1) - d.v_z;
+      cos_i[k] = static_cast<Real>(d.l_z);
+      cos_r[k] = static_cast<Real>(d.v_z);
+      s_z[k] = static_cast<Real>(z);
+      s_h2[k] = static_cast<Real>(h2);
+      tan2_b[k] = static_cast<Real>(h2 * over_z2);
+      rest_i[k] = static_cast<Real>(i);
+      rest_r[k] = static_cast<Real>(r);
+      if constexpr (logarithms) {
+        const Real of_i = lane::log(static_cast<Real>(i), static_cast<Real>(-d.l_z));
+        const Real of_r = lane::log(static_cast<Real>(r), static_cast<Real>(-d.v_z));
+        constexpr In least = static_cast<In>(std::numeric_limits<Real>::min());
+        log_i[k] = i >= least ? of_i : Real(log_of_zero);
+        log_r[k] = r >= least ? of_r : Real(log_of_zero);
+      }
+    }
+  }
+};
+
+template <class Real, class In>
+struct Half {
+  using Arguments = PrepareArguments<Real, In>;
+
+  [[gnu::always_inline]] static void run(const Arguments& a) {
+    const auto direction = a.direction;
+    Real* const cos_h = a[Field::cos_h];
+    Real* const rest_h = a[Field::one_minus_cos_h];
+    const std::size_t n = a.n;
+#pragma GCC ivdep
+    for (std::size_t k = 0; k < n; ++k) {
+      const auto d = Vectors<In>::at(direction, k);
+      const In s2 = square(d.l_x + d.v_x) + square(d.l_y + d.v_y) + square(d.l_z + d.v_z);
+      const In difference2 = square(d.l_x - d.v_x) + square(d.l_y - d.v_y) + square(d.l_z - d.v_z);
+      const In u = lane::at_most(In(1), In(0.5) * std::sqrt(s2));
+      cos_h[k] = static_cast<Real>(u);
+      rest_h[k] = static_cast<Real>(difference2 / (In(4) * (In(1) + u)));
+    }
+  }
+};
+
+template <class Real, class In>
+struct Forward {
+  using Arguments = PrepareArguments<Real, In>;
+
+  [[gnu::always_inline]] static void run(const Arguments& a) {
+    const auto direction = a.direction;
+    Real* const tan2 = a[Field::tan2_f];
+    Real* const swapped = a[Field::tan2_f_swapped];
+    Real* const forward = a[Field::forward];
+    Real* const dot = a[Field::dot_h];
+    const std::size_t n = a.n;
+#pragma GCC ivdep
+    for (std::size_t k = 0; k < n; ++k) {
+      const auto d = Vectors<In>::at(direction, k);
+      const In along = d.l_x * d.v_x + d.l_y * d.v_y;
+      const In along2 = square(along);
+      const In across2 = square(d.l_x * d.v_y - d.l_y * d.v_x);
+      const bool is_forward = (along < In(0)) & (along2 > In(0));
+      const In below = In(1) / (is_forward ? along2 : In(1));
+      const In t = (square(d.v_z) * (square(d.l_x) + square(d.l_y)) + across2) * below;
+      const In s = (square(d.l_z) * (square(d.v_x) + square(d.v_y)) + across2) * below;
+      // What no Real holds is as good as infinite: the lobe is nothing there.
+      constexpr In most = static_cast<In>(std::numeric_limits<Real>::max());
+      tan2[k] = static_cast<Real>(is_forward ? lane::at_most(most, t) : In(0));
+      swapped[k] = static_cast<Real>(is_forward ? lane::at_most(most, s) : In(0));
+      forward[k] = is_forward ? Real(1) : Real(0);
+      dot[k] = static_cast<Real>(along);
+    }
+  }
+};
+
+template <class Real, class In>
+struct Mirror {
+  using Arguments = PrepareArguments<Real, In>;
+
+  [[gnu::always_inline]] static void run(const Arguments& a) {
+    const auto direction = a.direction;
+    Real* const distance2 = a[Field::mirror_distance2];
+    const std::size_t n = a.n;
+#pragma GCC ivdep
+    for (std::size_t k = 0; k < n; ++k) {
+      const auto d = Vectors<In>::at(direction, k);
+      distance2[k] = static_cast<Real>(square(d.l_x + d.v_x) + square(d.l_y + d.v_y) + square(d.v_z - d.l_z));
+    }
+  }
+};
+
+}  // namespace
+
+template <class Real, class In>
+std::vector<Loop<PrepareArguments<Real, In>>> preparations(Fields fields, InstructionSet set) {
+  using enum Field;
+  std::vector<Loop<PrepareArguments<Real, In>>> loops;
+  if (fields.any_of({log_one_minus_cos_i, log_one_minus_cos_r})) {
+    loops.push_back(Vectorised<Zenith<Real, In, true>>::of(set));
+  } else if (fields.any_of({one_minus_cos_i, one_minus_cos_r})) {
+    loops.push_back(Vectorised<Zenith<Real, In, false>>::of(set));
+  } else {
+    loops.push_back(Vectorised<Sum<Real, In>>::of(set));
+  }
+  if (fields.any_of({cos_h, one_minus_cos_h})) loops.push_back(Vectorised<Half<Real, In>>::of(set));
+  if (fields.any_of({tan2_f, tan2_f_swapped, forward, dot_h})) loops.push_back(Vectorised<Forward<Real, In>>::of(set));
+  if (fields.has(mirror_distance2)) loops.push_back(Vectorised<Mirror<Real, In>>::of(set));
+  return loops;
+}
+
+template std::vector<Loop<PrepareArguments<double, double>>> preparations(Fields, InstructionSet);
+template std::vector<Loop<PrepareArguments<float, float>>> preparations(Fields, InstructionSet);
+template std::vector<Loop<PrepareArguments<float, double>>> preparations(Fields, InstructionSet);
+
+}  // namespace goniofit::block

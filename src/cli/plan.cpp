@@ -26,7 +26,7 @@ namespace {
 struct Options {
   std::filesystem::path material;
   std::optional<std::filesystem::path> scan, output;
-  double tolerance = 0.0;
+  double tolerance = 0.0, terms_to = 0.0;
   std::optional<double> max_theta, solid_angle;
   std::optional<std::string> theta_i, wavelengths;
   std::uint64_t seed = 1;
@@ -58,12 +58,16 @@ int run(const Options& options) {
   if (!(options.tolerance > 0.0 && options.tolerance < 1.0)) {
     throw usage_error("--tolerance: " + shortest(options.tolerance) + ", expected a number between 0 and 1");
   }
+  if (options.terms_to != 0.0 && !(options.terms_to >= 1e-9 && options.terms_to < options.tolerance)) {
+    throw usage_error("--terms-to: " + shortest(options.terms_to) + ", expected 0 or from 1e-9 to below --tolerance");
+  }
   std::vector<std::filesystem::path> inputs{options.material};
   if (options.scan) inputs.push_back(*options.scan);
   if (options.output) check_outputs({*options.output}, inputs);
   const Material material = read_material(options.material);
   const Domain domain = domain_of(options);
   PlanSettings settings = options.quick ? PlanSettings::quick() : PlanSettings{};
+  settings.compile.tolerance = options.terms_to;
   settings.seed = settings.timing.seed = options.seed;
   const Plan planned = [&] {
     ProgressLine line("plan", options.quiet);
@@ -96,6 +100,10 @@ void add_plan(CLI::App& program, int& status) {
   command->add_option("--wavelengths", options->wavelengths, "channels that matter, in um (all)")->type_name("LIST");
   command->add_option("--solid-angle", options->solid_angle, "of the source, in sr (the material's)")->type_name("SR");
   command->add_option("-o,--output", options->output, "write the planned material here")->type_name("FILE");
+  command
+      ->add_option("--terms-to", options->terms_to,
+                   "relative error that terms are compiled to where the plan will be used (0, or 1e-9 and more)")
+      ->type_name("E");
   command->add_option("--seed", options->seed, "of the directions")->type_name("INTEGER")->capture_default_str();
   command->add_flag("--quick", options->quick, "few rounds and directions: for trying out");
   command->add_flag("--json", options->json, "the plan as JSON");

@@ -26,7 +26,7 @@ namespace {
 struct Options {
   std::vector<std::filesystem::path> materials, plots;
   std::optional<std::filesystem::path> output;
-  std::optional<std::string> groups, instructions;
+  std::optional<std::string> groups, peers, instructions;
   std::optional<std::size_t> rounds;
   std::uint64_t seed = 1;
   bool json = false, quick = false, quiet = false;
@@ -56,6 +56,7 @@ InstructionSet parse_instructions(const std::string& text) {
 TradeoffSettings settings_of(const Options& options) {
   TradeoffSettings s = options.quick ? TradeoffSettings::quick() : TradeoffSettings{};
   if (options.groups) s.groups = parse_groups(*options.groups);
+  if (options.peers) s.peers = parse_words(*options.peers, "--peers");
   if (options.instructions) s.instructions = parse_instructions(*options.instructions);
   if (options.rounds) {
     if (*options.rounds == 0) throw usage_error("--rounds: expected 1 or more");
@@ -102,6 +103,8 @@ void add_tradeoff(CLI::App& program, int& status) {
   command->add_option("MATERIAL", options->materials, "material JSON (the paper's four samples by default)")
       ->type_name("");
   command->add_option("--groups", options->groups, "of " + names_of<TradeoffGroup>() + " (all by default)")
+      ->type_name("LIST");
+  command->add_option("--peers", options->peers, "models to fit beside the surface's (all of `goniofit models`)")
       ->type_name("LIST");
   command->add_option("--plot", options->plots, "error against time, .svg or .png; may be repeated")
       ->type_name("FILE")

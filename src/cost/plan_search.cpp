@@ -47,9 +47,11 @@ bool reads_shadowing(EffectSet e) noexcept { return e.has(Effect::coh) || e.has(
 bool reads_effective_roughness(EffectSet e) noexcept { return reads_shadowing(e) || e.has(Effect::fs); }
 bool reads_distribution(EffectSet e) noexcept { return e.has(Effect::dd); }
 
-PlanSearch::PlanSearch(Material reference, const Terms& given, const Domain& domain, const ErrorSettings& settings)
+PlanSearch::PlanSearch(Material reference, const Terms& given, const Domain& domain, const ErrorSettings& settings,
+                       const CompileSettings& compile)
     : reference_(std::move(reference)),
       given_(given),
+      compile_(compile),
       acting_(acting_effects(reference_)),
       channels_(channels_in(reference_, domain)),
       samples_(error_samples(reference_, domain, settings)),
@@ -68,7 +70,8 @@ PlanSearch::PlanSearch(Material reference, const Terms& given, const Domain& dom
   for (const RoughForm form : {RoughForm::integral, RoughForm::functional, RoughForm::qualitative}) {
     if (form >= reference_.forms.rough) rough_.push_back(form);
   }
-  exact_ = sum(this->reference());
+  const Candidate exact{.name = "reference", .material = material(this->reference())};
+  exact_ = model_values(exact, samples_);
 }
 
 PlanChoice PlanSearch::reference() const { return canonical({acting_, reference_.terms, reference_.forms.rough}); }
@@ -116,7 +119,7 @@ const ModelValues& PlanSearch::part(Effect effect, const PlanChoice& choice) {
   const Key key{effect, t.fresnel, t.shadowing, t.effective_roughness, t.distribution, alone.rough};
   const auto found = parts_.find(key);
   if (found != parts_.end()) return found->second;
-  const Candidate candidate{.name = std::string(name_of(effect)), .material = material(alone)};
+  const Candidate candidate{.name = std::string(name_of(effect)), .material = material(alone), .compile = compile_};
   return parts_.emplace(key, model_values(candidate, samples_)).first->second;
 }
 

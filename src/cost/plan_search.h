@@ -27,7 +27,8 @@ struct PlanChoice {
 class PlanSearch {
  public:
   /// `reference` has the most exact terms; `given` are the terms that what is not read falls back to.
-  PlanSearch(Material reference, const Terms& given, const Domain& domain, const ErrorSettings& settings);
+  PlanSearch(Material reference, const Terms& given, const Domain& domain, const ErrorSettings& settings,
+             const CompileSettings& compile);
 
   /// The reference's tiers first, the cheaper ones after.
   [[nodiscard]] const std::vector<FresnelTier>& fresnel() const noexcept { return fresnel_; }
@@ -50,6 +51,7 @@ class PlanSearch {
 
   Material reference_;
   Terms given_;
+  CompileSettings compile_;
   EffectSet acting_;
   std::vector<std::size_t> channels_;
   ErrorSamples samples_;
@@ -65,7 +67,7 @@ class PlanSearch {
 /// All but the empty one.
 [[nodiscard]] std::vector<EffectSet> subsets_of(EffectSet effects);
 
-/// Whether `a` is no dearer than `b` by construction: no more effects, and each term that it reads the same, left out,
+/// Whether `a` should be no dearer than `b`: no more effects, and each term that it reads the same, left out,
 /// or plainly a part of the other's work.
 [[nodiscard]] bool no_dearer(const PlanChoice& a, const PlanChoice& b) noexcept;
 

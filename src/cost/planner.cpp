@@ -36,8 +36,11 @@ std::vector<Feasible> within_tolerance(PlanSearch& search, double tolerance, std
   return feasible;
 }
 
-// Only those that no other is no dearer than by construction need a clock.
-std::vector<Feasible> without_dearer(const std::vector<Feasible>& feasible) {
+// Of many only those that no other should be cheaper than need a clock; few are all timed, since a kernel may know
+// better.
+std::vector<Feasible> worth_timing(const std::vector<Feasible>& feasible) {
+  constexpr std::size_t few = 48;
+  if (feasible.size() <= few) return feasible;
   std::vector<Feasible> kept;
   for (const Feasible& f : feasible) {
     const bool beaten = std::any_of(feasible.begin(), feasible.end(), [&](const Feasible& g) {
@@ -57,7 +60,7 @@ class Clock {
   [[nodiscard]] std::vector<Timing> time(const std::vector<Material>& materials, std::size_t rounds) const {
     std::vector<TimedTask> tasks;
     for (const Material& m : materials) {
-      Candidate c{.name = {}, .material = m, .compile = {.instructions = settings_.instructions}};
+      Candidate c{.name = {}, .material = m, .compile = settings_.compile};
       c.material.channels.clear();
       for (const std::size_t i : channels_) c.material.channels.push_back(m.channels[i]);
       tasks.push_back(evaluation_task(c, pairs_));
@@ -122,7 +125,7 @@ void add_times(Plan& p, PlanSearch& search, const Clock& clock, const Material& 
 
 PlanSettings PlanSettings::quick() {
   PlanSettings s;
-  s.errors = {.incidences = 7, .directions = 256};
+  s.errors = {.incidences = 17, .directions = 192};
   s.timing = {.rounds = 5, .least_seconds = 2e-5};
   s.pairs = 512;
   return s;
@@ -168,14 +171,18 @@ Plan plan(const Material& material, const Domain& domain, double tolerance, cons
   }
   ErrorSettings errors = settings.errors;
   errors.seed = settings.seed;
-  PlanSearch search(reference.material, material.terms, domain, errors);
+  PlanSearch search(reference.material, material.terms, domain, errors, settings.compile);
   Plan p;
   p.domain = domain;
   p.tolerance = tolerance;
   p.reference = std::move(reference.name);
   tell("errors of all combinations");
   const std::vector<Feasible> feasible = within_tolerance(search, tolerance, p.searched);
-  const std::vector<Feasible> candidates = without_dearer(feasible);
+  if (feasible.empty()) {
+    throw Error(ErrorKind::failed_result, "nothing stays within " + shortest(tolerance) + ": terms compiled to " +
+                                              shortest(settings.compile.tolerance) + " are too coarse for it");
+  }
+  const std::vector<Feasible> candidates = worth_timing(feasible);
   p.within = feasible.size();
   p.timed = candidates.size();
   tell("times of those within the tolerance");

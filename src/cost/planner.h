@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
+#include "../brdf/batch_evaluator.h"
 #include "../brdf/material.h"
 #include "../geometry/domain.h"
-#include "../support/instruction_set.h"
 #include "error_samples.h"
 #include "model_error.h"
 #include "timing.h"
@@ -38,18 +38,21 @@ struct Plan {
   double tolerance = 0.0;
   std::string reference;  ///< what errors are against
   std::vector<PlanLine> lines;
-  ModelError error;                                      ///< of the plan; worst_l1_bound is at most the tolerance
-  ModelError error_before;                               ///< of the material as it was given
-  double ns = 0.0, ns_before = 0.0, ns_reference = 0.0;  ///< of one evaluation, medians of one interleaved run
-  double ratio_before = 1.0, ratio_reference = 1.0;      ///< of these times over the plan's, round by round
-  std::size_t searched = 0, within = 0, timed = 0;       ///< combinations
+  ModelError error;         ///< of the plan; worst_l1_bound is at most the tolerance
+  ModelError error_before;  ///< of the material as it was given
+  /// Of one pair of directions in one channel, the domain's channels together; medians of one interleaved run.
+  double ns = 0.0, ns_before = 0.0, ns_reference = 0.0;
+  double ratio_before = 1.0, ratio_reference = 1.0;  ///< of these times over the plan's, round by round
+  std::size_t searched = 0, within = 0, timed = 0;   ///< combinations
 };
 
 struct PlanSettings {
-  ErrorSettings errors{.incidences = 13, .directions = 1024};
+  /// Close incidences: between them an error may be larger than at both.
+  ErrorSettings errors{.incidences = 25, .directions = 512};
   TimingSettings timing{};
   std::size_t pairs = 4096;
-  InstructionSet instructions = best_instruction_set();
+  /// How the caller compiles what is planned: it decides what a term costs, and its tolerance is part of the error.
+  CompileSettings compile{};
   std::uint64_t seed = 1;
   /// Few repetitions and directions: for trying out.
   [[nodiscard]] static PlanSettings quick();

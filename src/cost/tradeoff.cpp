@@ -10,7 +10,10 @@
 #include "cost/machine.h"
 #include "cost/pareto.h"
 #include "cost/tradeoff_parts.h"
+#include "peers/peers.h"
+#include "support/error.h"
 #include "support/named.h"
+#include "support/text.h"
 
 namespace goniofit {
 
@@ -191,6 +194,9 @@ Tradeoff measure_tradeoff(const std::vector<Material>& materials, const Tradeoff
              .instructions = settings.instructions,
              .settings = settings,
              .rows = {}};
+  for (const std::string& peer : settings.peers.value_or(std::vector<std::string>{})) {
+    if (!make_peer(peer)) throw usage_error(in_quotes(peer) + " is no peer that `goniofit models` names");
+  }
   std::vector<Material> valid;
   for (const Material& m : materials) {
     const Reference r = reference_of(m, WaveOptics::series);

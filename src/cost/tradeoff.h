@@ -81,6 +81,8 @@ struct TradeoffSettings {
   ErrorSettings errors{};
   InstructionSet instructions = best_instruction_set();
   std::uint64_t seed = 1;
+  /// Peers that are fitted and measured beside the surface models; unset: all that can tell the material.
+  std::optional<std::vector<std::string>> peers{};
   /// Few repetitions and directions: for trying out.
   [[nodiscard]] static TradeoffSettings quick();
 };
@@ -96,7 +98,7 @@ struct Tradeoff {
 using TradeoffProgress = std::function<void(const std::string& what, std::size_t done, std::size_t total)>;
 
 /// Errors are functions of the materials and the seed; times are not. Throws Error (bad_input) for an invalid material
-/// and for a peer.
+/// and for a peer, and for a peer's name that is none.
 [[nodiscard]] Tradeoff measure_tradeoff(const std::vector<Material>& materials, const TradeoffSettings& settings,
                                         const TradeoffProgress& progress = {});
 

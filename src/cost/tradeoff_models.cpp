@@ -62,7 +62,7 @@ Rows model_rows(const Material& material, const TradeoffSettings& s, const Note&
   if (wave_optics) list.push_back(exact);
 
   const Scan scan = reference_scan(fast.material, s.seed + 1);
-  for (const std::string& peer : peers_for(material)) {
+  for (const std::string& peer : s.peers.value_or(peers_for(material))) {
     note(material.name + ", fitting " + peer);
     list.push_back(fitted_peer(peer, scan, fast.material));
     list.back().compile.instructions = s.instructions;

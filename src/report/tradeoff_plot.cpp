@@ -73,7 +73,7 @@ Range error_range(const std::vector<Rows>& panels) {
       high = std::max(high, error_of(*row));
     }
   }
-  return {std::pow(10.0, std::floor(std::log10(low) - 0.3)), 3.0 * std::max(high, 10.0 * low)};
+  return {low / 3.0, 3.0 * std::max(high, 10.0 * low)};
 }
 
 struct Axes {

@@ -20,7 +20,7 @@ class Program;
 struct CompileSettings {
   /// Largest relative error of a term that may be replaced by a cheaper expression of it, 0 or at least 1e-9. At 0
   /// values are those of Evaluator to 1e-13 (1 + |ln f|) in double and 1e-5 (1 + |ln f|) in float (but for W of tier
-  /// he-torrance, which is good to 1e-9 itself). Values below 1e-295 (float: 1e-25) may come back as anything below
+  /// he-torrance, which is good to 1e-9 itself). Values below 1e-240 (float: 1e-20) may come back as anything below
   /// that.
   double tolerance = 0.0;
   /// LT (7): S1 = 1 where cos > 1 - 0.005^(sigma/tau). A step of up to 0.5 % in each of the two factors (tier

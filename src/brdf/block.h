@@ -55,11 +55,6 @@ class Fields {
     bits_ |= other.bits_;
     return *this;
   }
-  [[nodiscard]] static constexpr Fields all() noexcept {
-    Fields f;
-    f.bits_ = (1U << field_count) - 1U;
-    return f;
-  }
 
  private:
   [[nodiscard]] static constexpr std::uint32_t mask(Field f) noexcept { return 1U << static_cast<unsigned>(f); }

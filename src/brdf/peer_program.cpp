@@ -65,16 +65,20 @@ void PeerProgram<Real>::run_blocks(const Source& source, std::span<Real> result)
   FieldArrays<Real> fields;
   block::Terms<Real> terms;
   block::Geometry<Real> geometry;
+  block::Array<Real> last;
   constexpr Real most = std::is_same_v<Real, float> ? Real(1e30) : Real(saturation);
   for (std::size_t first = 0; first < source.size(); first += block::size) {
     const std::size_t n = std::min(block::size, source.size() - first);
-    source.prepare(first, n, &fields, geometry);
-    if (lobe_ != nullptr) lobe_({geometry, &terms, n, z_});
+    const std::size_t whole = whole_vectors(n);
+    source.prepare(first, n, fields, geometry);
+    if (lobe_ != nullptr) lobe_({geometry, &terms, whole, z_});
     for (std::size_t c = 0; c < plans_.size(); ++c) {
       const Plan& p = plans_[c];
-      if (mirror_ == Use::array) fresnel_({geometry, &terms, n, p.index, p.kappa});
+      if (mirror_ == Use::array) fresnel_({geometry, &terms, whole, p.index, p.kappa});
       Real* const out = result.data() + c * source.size() + first;
-      p.combine({geometry, &terms, n, p.mirror_0, p.mirror_1, Real(0), Real(0), p.diffuse, most, out});
+      Real* const to = whole == n ? out : last.data();
+      p.combine({geometry, &terms, whole, p.mirror_0, p.mirror_1, Real(0), Real(0), p.diffuse, most, to});
+      if (to != out) std::copy_n(to, n, out);
     }
   }
 }

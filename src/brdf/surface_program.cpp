@@ -132,21 +132,23 @@ template <class Out, class Real>
 void SurfaceProgram<Out, Real>::plan_curves(double tolerance) {
   if (tolerance == 0.0 && !(wave_ && shape_.distribution == DistributionTier::he_torrance)) return;
   const double each = term_tolerance(tolerance, wave_);
+  constexpr auto arithmetic = std::is_same_v<Real, float> ? Arithmetic::binary32 : Arithmetic::binary64;
   for (ChannelPlan<Real>& p : plans_) {
     const double kappa = static_cast<double>(p.kappa);
     const double n = static_cast<double>(p.index);
-    if (const auto f = p.mirror == Use::array ? reflection_curve(n, kappa, each) : std::nullopt) {
+    if (const auto f = p.mirror == Use::array ? reflection_curve(n, kappa, each, arithmetic) : std::nullopt) {
       p.fresnel_curve = rounded<Real>(*f);
       p.fresnel_curve_loop = block::fresnel_curve<Real>(f->c.size(), set_);
     }
-    if (const auto t = p.below == Use::array ? transmission_curve(n, kappa, each) : std::nullopt) {
+    if (const auto t = p.below == Use::array ? transmission_curve(n, kappa, each, arithmetic) : std::nullopt) {
       p.transmission_curve = rounded<Real>(*t);
       p.transmission_curve_loop = block::transmission_curve<Real>(t->c.size(), set_);
     }
   }
   const bool fs_grows = fs_ && grows_;
   if (shape_.anisotropic || (!dd_ && !fs_grows)) return;
-  const auto c = visibility_curves(shape_, dd_, static_cast<double>(slope_), static_cast<double>(tail_), each);
+  const auto c =
+      visibility_curves(shape_, dd_, static_cast<double>(slope_), static_cast<double>(tail_), each, arithmetic);
   if (!c) return;
   by_pair_ = false;
   curves_ = {rounded<Real>(c->lit),
@@ -198,10 +200,13 @@ void SurfaceProgram<Out, Real>::run_blocks(const Source& source, std::span<Out> 
   Workspace w;
   for (std::size_t first = 0; first < source.size(); first += block::size) {
     const std::size_t n = std::min(block::size, source.size() - first);
-    source.prepare(first, n, &w.fields, w.geometry);
+    source.prepare(first, n, w.fields, w.geometry);
     run_shared(source, first, n, w);
     for (std::size_t c = 0; c < plans_.size(); ++c) {
-      run_channel(source, c, first, n, w, result.data() + c * source.size() + first);
+      Out* const out = result.data() + c * source.size() + first;
+      const bool whole = whole_vectors(n) == n;
+      run_channel(source, c, first, n, w, whole ? out : w.out.data());
+      if (!whole) std::copy_n(w.out.begin(), n, out);
     }
   }
 }
@@ -210,7 +215,8 @@ template <class Out, class Real>
 template <class Source>
 void SurfaceProgram<Out, Real>::run_shared(const Source& source, std::size_t first, std::size_t n, Workspace& w) const {
   run_visibility(source, first, n, w);
-  const block::LobeArguments<Real> lobe{w.geometry, &w.terms, n, log_slope_, Real(1) / (slope_ * slope_), tail_};
+  const block::LobeArguments<Real> lobe{w.geometry, &w.terms, whole_vectors(n), log_slope_, Real(1) / (slope_ * slope_),
+                                        tail_};
   if (dd_loop_ != nullptr) dd_loop_(lobe);
   if (fs_loop_ != nullptr) fs_loop_(lobe);
   if (by_pair_ && !wave_ && (dd_ || fs_)) run_shapes_by_pair(source, first, n, 1.0, w);
@@ -231,7 +237,7 @@ template <class Source>
 void SurfaceProgram<Out, Real>::run_visibility(const Source& source, std::size_t first, std::size_t n,
                                                Workspace& w) const {
   if (visibility_ != nullptr) {
-    visibility_({w.geometry, &w.terms, n, slope_, Real(1) / slope_, log_slope_, unit_shadowing_from_});
+    visibility_({w.geometry, &w.terms, whole_vectors(n), slope_, Real(1) / slope_, log_slope_, unit_shadowing_from_});
   }
   if (!curves_) return;
   const SharedCurves& c = *curves_;
@@ -252,12 +258,13 @@ void SurfaceProgram<Out, Real>::run_visibility(const Source& source, std::size_t
 
 template <class Out, class Real>
 void SurfaceProgram<Out, Real>::run_optics(const ChannelPlan<Real>& p, std::size_t n, Workspace& w) const {
-  const block::FresnelArguments<Real> optics{w.geometry, &w.terms, n, p.index, p.kappa};
+  const block::FresnelArguments<Real> optics{w.geometry, &w.terms, whole_vectors(n), p.index, p.kappa};
   if (p.mirror == Use::array) {
-    p.fresnel_curve ? p.fresnel_curve_loop({w.geometry, &w.terms, n, &*p.fresnel_curve}) : fresnel_(optics);
+    p.fresnel_curve ? p.fresnel_curve_loop({w.geometry, &w.terms, whole_vectors(n), &*p.fresnel_curve})
+                    : fresnel_(optics);
   }
   if (p.below == Use::array) {
-    p.transmission_curve ? p.transmission_curve_loop({w.geometry, &w.terms, n, &*p.transmission_curve})
+    p.transmission_curve ? p.transmission_curve_loop({w.geometry, &w.terms, whole_vectors(n), &*p.transmission_curve})
                          : transmission_(optics);
   }
 }
@@ -288,7 +295,7 @@ void SurfaceProgram<Out, Real>::run_wave(const ChannelPlan<Real>& plan, std::siz
   const double half_tau = 0.5 * wave_number * std::exp(log_sigma_) / static_cast<double>(slope_);
   const block::WaveLoopArguments<Real> a{w.geometry,
                                          &w.terms,
-                                         n,
+                                         whole_vectors(n),
                                          log_slope_,
                                          static_cast<Real>(std::log(wave_number) + log_sigma_),
                                          static_cast<Real>(half_tau * half_tau)};
@@ -299,10 +306,10 @@ void SurfaceProgram<Out, Real>::run_wave(const ChannelPlan<Real>& plan, std::siz
       w.terms.log_w[k] = static_cast<Real>(log_w);
     }
   } else if constexpr (std::is_same_v<Real, double>) {
-    log_he_torrance_block(w.terms.log_g.data(), w.terms.x.data(), n, w.terms.log_w.data(), HeTorranceAccuracy::fine,
-                          set_);
+    log_he_torrance_block(w.terms.log_g.data(), w.terms.x.data(), whole_vectors(n), w.terms.log_w.data(),
+                          HeTorranceAccuracy::fine, set_);
   } else {
-    log_he_torrance_block(w.terms.log_g.data(), w.terms.x.data(), n, w.terms.log_w.data(), set_);
+    log_he_torrance_block(w.terms.log_g.data(), w.terms.x.data(), whole_vectors(n), w.terms.log_w.data(), set_);
   }
   wave_lobe_(a);
 }

@@ -44,6 +44,7 @@ class SurfaceProgram final : public Program<Out> {
     FieldArrays<Real> fields;
     block::Terms<Real> terms;
     block::Geometry<Real> geometry;
+    block::Array<Out> out;
   };
 
   void plan_channels();

@@ -44,14 +44,23 @@ std::vector<double> powers(const std::vector<double>& chebyshev, std::size_t n) 
   return sum;
 }
 
+template <class Real>
+double evaluate(const FittedPolynomial& p, double x) noexcept {
+  const Real t = static_cast<Real>(p.scale) * static_cast<Real>(x) + static_cast<Real>(p.offset);
+  Real sum = 0;
+  for (std::size_t k = p.c.size(); k-- > 0;) sum = sum * t + static_cast<Real>(p.c[k]);
+  return static_cast<double>(sum);
+}
+
 double error_of(const FittedPolynomial& p, const std::function<double(double)>& f, double lower, double upper,
-                ErrorMeasure measure) {
+                ErrorMeasure measure, Arithmetic arithmetic) {
   double worst = 0.0;
   const std::size_t points = 10 * p.c.size();
   for (std::size_t i = 0; i <= points; ++i) {
     const double x = lower + (upper - lower) * static_cast<double>(i) / static_cast<double>(points);
     const double truth = f(x);
-    const double error = std::fabs(p(x) - truth) / (measure == ErrorMeasure::relative ? std::fabs(truth) : 1.0);
+    const double value = arithmetic == Arithmetic::binary32 ? evaluate<float>(p, x) : evaluate<double>(p, x);
+    const double error = std::fabs(value - truth) / (measure == ErrorMeasure::relative ? std::fabs(truth) : 1.0);
     worst = std::isfinite(error) ? std::fmax(worst, error) : std::numeric_limits<double>::infinity();
   }
   return worst;
@@ -59,19 +68,15 @@ double error_of(const FittedPolynomial& p, const std::function<double(double)>& 
 
 }  // namespace
 
-double FittedPolynomial::operator()(double x) const noexcept {
-  const double t = scale * x + offset;
-  double sum = 0.0;
-  for (std::size_t k = c.size(); k-- > 0;) sum = sum * t + c[k];
-  return sum;
-}
+double FittedPolynomial::operator()(double x) const noexcept { return evaluate<double>(*this, x); }
 
 std::optional<FittedPolynomial> fit_polynomial(const std::function<double(double)>& f, double lower, double upper,
-                                               double tolerance, ErrorMeasure measure, std::size_t most) {
+                                               double tolerance, ErrorMeasure measure, std::size_t most,
+                                               Arithmetic arithmetic) {
   const std::vector<double> chebyshev = chebyshev_coefficients(f, lower, upper, most + most / 2);
   for (std::size_t n = 4; n <= most; n += 4) {
     FittedPolynomial p{2.0 / (upper - lower), -(upper + lower) / (upper - lower), powers(chebyshev, n), 0.0};
-    p.error = error_of(p, f, lower, upper, measure);
+    p.error = error_of(p, f, lower, upper, measure, arithmetic);
     if (p.error <= tolerance) return p;
   }
   return std::nullopt;

@@ -134,7 +134,7 @@ TEST(ModelError, APeersMirrorPartCountsByItsEnergy) {
 // The standard error that a bound is made of is that of the estimates over seeds.
 TEST(ModelError, TheBoundKnowsTheSpreadOfTheEstimates) {
   const Material exact = reference_of(laser_paper_73(), WaveOptics::fast).material;
-  constexpr int seeds = 60;
+  constexpr int seeds = 30;
   double sum = 0.0;
   double squares = 0.0;
   double stated = 0.0;
@@ -152,7 +152,7 @@ TEST(ModelError, TheBoundKnowsTheSpreadOfTheEstimates) {
   const double mean = sum / seeds;
   const double spread = std::sqrt(squares / seeds - mean * mean);
   EXPECT_GT(spread, 0.0);
-  EXPECT_NEAR(stated / seeds / spread, 1.0, 0.35);
+  EXPECT_NEAR(stated / seeds / spread, 1.0, 0.45);
 }
 
 TEST(ModelError, SinglePrecisionIsNearDouble) {

@@ -1,0 +1,117 @@
+// goniofit plan: the cheapest effects and tiers within a tolerance.
+
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/commands.h"
+#include "cli/console.h"
+#include "cli/number_arguments.h"
+#include "cli/outputs.h"
+#include "cost/planner.h"
+#include "io/material_io.h"
+#include "io/scan_reader.h"
+#include "report/plan_report.h"
+#include "scan/scan_domain.h"
+#include "support/error.h"
+#include "support/text.h"
+
+namespace goniofit::cli {
+namespace {
+
+struct Options {
+  std::filesystem::path material;
+  std::optional<std::filesystem::path> scan, output;
+  double tolerance = 0.0, terms_to = 0.0;
+  std::optional<double> max_theta, solid_angle;
+  std::optional<std::string> theta_i, wavelengths;
+  std::uint64_t seed = 1;
+  bool json = false, quick = false, quiet = false;
+};
+
+// The scan's domain, else the default one; each flag replaces its part.
+Domain domain_of(const Options& options) {
+  Domain d = options.scan ? domain_of(read_scan(*options.scan)) : Domain{};
+  if (options.theta_i) {
+    const std::vector<double> range = parse_numbers(*options.theta_i, "--theta-i");
+    if (range.size() != 2) {
+      throw usage_error("--theta-i: " + in_quotes(*options.theta_i) + ", expected two angles such as 0,60");
+    }
+    d.theta_i_min_deg = range[0];
+    d.theta_i_max_deg = range[1];
+  }
+  if (options.max_theta) {
+    d.theta_r_max_deg = *options.max_theta;
+    if (!options.theta_i) d.theta_i_max_deg = std::min(d.theta_i_max_deg, *options.max_theta);
+  }
+  if (options.wavelengths) d.wavelengths_um = parse_numbers(*options.wavelengths, "--wavelengths");
+  if (options.solid_angle) d.solid_angle_sr = options.solid_angle;
+  validate(d);
+  return d;
+}
+
+int run(const Options& options) {
+  if (!(options.tolerance > 0.0 && options.tolerance < 1.0)) {
+    throw usage_error("--tolerance: " + shortest(options.tolerance) + ", expected a number between 0 and 1");
+  }
+  if (options.terms_to != 0.0 && !(options.terms_to >= 1e-9 && options.terms_to < options.tolerance)) {
+    throw usage_error("--terms-to: " + shortest(options.terms_to) + ", expected 0 or from 1e-9 to below --tolerance");
+  }
+  std::vector<std::filesystem::path> inputs{options.material};
+  if (options.scan) inputs.push_back(*options.scan);
+  if (options.output) check_outputs({*options.output}, inputs);
+  const Material material = read_material(options.material);
+  const Domain domain = domain_of(options);
+  PlanSettings settings = options.quick ? PlanSettings::quick() : PlanSettings{};
+  settings.compile.tolerance = options.terms_to;
+  settings.seed = settings.timing.seed = options.seed;
+  const Plan planned = [&] {
+    ProgressLine line("plan", options.quiet);
+    return plan(material, domain, options.tolerance, settings,
+                [&line](const std::string& what) { line.show(what, 0, 0); });
+  }();
+  if (options.output) write_result(*options.output, to_json(planned.material));
+  const bool material_is_out = options.output && is_stdout(*options.output);
+  if (!material_is_out) to_stdout(options.json ? plan_json(planned) : plan_text(planned, stdout_style()));
+  return 0;
+}
+
+}  // namespace
+
+void add_plan(CLI::App& program, int& status) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* command =
+      program.add_subcommand("plan", "Find the cheapest effects and tiers that stay within a tolerance");
+  command->add_option("MATERIAL", options->material, "material JSON")->type_name("")->required();
+  command
+      ->add_option("--tolerance", options->tolerance,
+                   "largest L1 error at any incidence angle and in any channel, such as 0.01")
+      ->type_name("PART")
+      ->required();
+  command->add_option("--scan", options->scan, "take angles, wavelengths and solid angle from this scan")
+      ->type_name("FILE");
+  command->add_option("--theta-i", options->theta_i, "incidence angles from, to (0,80)")->type_name("A,B");
+  command->add_option("--max-theta", options->max_theta, "largest angle of incidence and of viewing that matters")
+      ->type_name("DEG");
+  command->add_option("--wavelengths", options->wavelengths, "channels that matter, in um (all)")->type_name("LIST");
+  command->add_option("--solid-angle", options->solid_angle, "of the source, in sr (the material's)")->type_name("SR");
+  command->add_option("-o,--output", options->output, "write the planned material here")->type_name("FILE");
+  command
+      ->add_option("--terms-to", options->terms_to,
+                   "relative error that terms are compiled to where the plan will be used (0, or 1e-9 and more)")
+      ->type_name("E");
+  command->add_option("--seed", options->seed, "of the directions")->type_name("INTEGER")->capture_default_str();
+  command->add_flag("--quick", options->quick, "few rounds and directions: for trying out");
+  command->add_flag("--json", options->json, "the plan as JSON");
+  command->add_flag("-q,--quiet", options->quiet, "no progress on standard error");
+  command->footer(
+      "The error is against the most exact terms that the material has the parameters for, with its own coefficients.\n"
+      "Example:\n  goniofit plan fits/laser_paper_73.json --tolerance 0.01 --max-theta 75 -o planned.json");
+  command->callback([options, &status] { status = run(*options); });
+}
+
+}  // namespace goniofit::cli

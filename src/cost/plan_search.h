@@ -1,0 +1,74 @@
+#pragma once
+// All combinations of effects and tiers, and their errors. Private to the planner.
+
+#include <map>
+#include <tuple>
+#include <vector>
+
+#include "candidate.h"
+#include "model_error.h"
+
+namespace goniofit {
+
+/// What a plan chooses.
+struct PlanChoice {
+  EffectSet effects;
+  Terms terms;
+  RoughForm rough = RoughForm::functional;
+  friend bool operator==(const PlanChoice&, const PlanChoice&) = default;
+};
+
+/// Whether effects read a term at all.
+[[nodiscard]] bool reads_fresnel(EffectSet effects) noexcept;
+[[nodiscard]] bool reads_shadowing(EffectSet effects) noexcept;
+[[nodiscard]] bool reads_effective_roughness(EffectSet effects) noexcept;
+[[nodiscard]] bool reads_distribution(EffectSet effects) noexcept;
+
+class PlanSearch {
+ public:
+  /// `reference` has the most exact terms; `given` are the terms that what is not read falls back to.
+  PlanSearch(Material reference, const Terms& given, const Domain& domain, const ErrorSettings& settings,
+             const CompileSettings& compile);
+
+  /// The reference's tiers first, the cheaper ones after.
+  [[nodiscard]] const std::vector<FresnelTier>& fresnel() const noexcept { return fresnel_; }
+  [[nodiscard]] const std::vector<ShadowingTier>& shadowing() const noexcept { return shadowing_; }
+  [[nodiscard]] const std::vector<EffectiveRoughnessTier>& roughness() const noexcept { return roughness_; }
+  [[nodiscard]] const std::vector<DistributionTier>& distribution() const noexcept { return distribution_; }
+  [[nodiscard]] const std::vector<RoughForm>& rough() const noexcept { return rough_; }
+
+  [[nodiscard]] PlanChoice reference() const;
+  /// Terms that the effects do not read as given: every choice that evaluates alike is one.
+  [[nodiscard]] PlanChoice canonical(PlanChoice choice) const;
+  [[nodiscard]] std::vector<PlanChoice> all() const;
+  [[nodiscard]] ModelError error(const PlanChoice& choice);
+  [[nodiscard]] Material material(const PlanChoice& choice) const;
+
+ private:
+  using Key = std::tuple<Effect, FresnelTier, ShadowingTier, EffectiveRoughnessTier, DistributionTier, RoughForm>;
+  [[nodiscard]] const ModelValues& part(Effect effect, const PlanChoice& choice);
+  [[nodiscard]] ModelValues sum(const PlanChoice& choice);
+
+  Material reference_;
+  Terms given_;
+  CompileSettings compile_;
+  EffectSet acting_;
+  std::vector<std::size_t> channels_;
+  ErrorSamples samples_;
+  std::vector<FresnelTier> fresnel_;
+  std::vector<ShadowingTier> shadowing_;
+  std::vector<EffectiveRoughnessTier> roughness_;
+  std::vector<DistributionTier> distribution_;
+  std::vector<RoughForm> rough_;
+  std::map<Key, ModelValues> parts_;  ///< f is the sum over effects: each is evaluated once for each of its tiers
+  ModelValues exact_;
+};
+
+/// All but the empty one.
+[[nodiscard]] std::vector<EffectSet> subsets_of(EffectSet effects);
+
+/// Whether `a` should be no dearer than `b`: no more effects, and each term that it reads the same, left out,
+/// or plainly a part of the other's work.
+[[nodiscard]] bool no_dearer(const PlanChoice& a, const PlanChoice& b) noexcept;
+
+}  // namespace goniofit

@@ -130,6 +130,8 @@ void SurfaceProgram<Out, Real>::plan_shared(const CompileSettings& settings) {
 
 template <class Out, class Real>
 void SurfaceProgram<Out, Real>::plan_curves(double tolerance) {
+  // Single precision has no digits for more than this.
+  if (std::is_same_v<Real, float>) tolerance = std::max(tolerance, 2e-5);
   if (tolerance == 0.0 && !(wave_ && shape_.distribution == DistributionTier::he_torrance)) return;
   const double each = term_tolerance(tolerance, wave_);
   constexpr auto arithmetic = std::is_same_v<Real, float> ? Arithmetic::binary32 : Arithmetic::binary64;

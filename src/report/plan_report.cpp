@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "cost/tradeoff.h"
+#include "report/fit_rows.h"
+#include "report/material_json.h"
 #include "report/number_text.h"
 #include "report/text_table.h"
 
@@ -35,13 +37,6 @@ std::string against(double ratio) {
   return ratio > 1.0 ? fmt::format("{:.2f} times faster", ratio) : fmt::format("{:.2f} times slower", 1.0 / ratio);
 }
 
-Json terms_json(const Terms& t) {
-  return {{"fresnel", name_of(t.fresnel)},
-          {"shadowing", name_of(t.shadowing)},
-          {"effective_roughness", name_of(t.effective_roughness)},
-          {"distribution", name_of(t.distribution)}};
-}
-
 Json domain_json(const Domain& d) {
   return {{"theta_i_deg", {d.theta_i_min_deg, d.theta_i_max_deg}},
           {"theta_r_max_deg", d.theta_r_max_deg},
@@ -57,14 +52,6 @@ Json line_json(const PlanLine& line) {
           {"change", line.change},
           {"saves", line.saves},
           {"text", line.text()}};
-}
-
-Json components_json(EffectSet effects) {
-  Json names = Json::array();
-  for (const Effect e : all_effects) {
-    if (effects.has(e)) names.push_back(name_of(e));
-  }
-  return names;
 }
 
 }  // namespace
@@ -90,7 +77,7 @@ std::string plan_text(const Plan& p, const ReportStyle& style) {
 
 std::string plan_json(const Plan& p) {
   Json out{{"material", p.material.name},
-           {"components", components_json(p.material.components)},
+           {"components", effect_names(p.material.components)},
            {"terms", terms_json(p.material.terms)},
            {"forms", {{"fs", name_of(p.material.forms.fs)}, {"rough", name_of(p.material.forms.rough)}}},
            {"reference", p.reference},

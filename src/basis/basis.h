@@ -69,6 +69,11 @@ class Basis {
   /// over the length costs only those.
   [[nodiscard]] virtual bool reads_length(const Pair&) const noexcept { return false; }
 
+  /// The value of the first shape parameter's z up to which all columns that read the shape are nil at this pair: below
+  /// 10⁻³⁰ sr⁻¹ per unit of their coefficient, for z throughout and whatever the other parameters are. A search need
+  /// not look at a narrow lobe from afar. Minus infinity where there is none.
+  [[nodiscard]] virtual double onset(const Pair&) const noexcept { return -std::numeric_limits<double>::infinity(); }
+
   /// values[column] at one pair; z holds the shape parameters as above. Pairs with a cosine <= 0 are the caller's to
   /// leave out, here and below.
   virtual void shape_factors(const Pair& pair, std::span<const double> z, double wavelength_um,

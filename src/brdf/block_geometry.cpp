@@ -59,7 +59,7 @@ struct Sum {
 };
 
 // The same with the zenith angles' parts: one quotient for all; near the horizon 1 - z as it stands.
-template <class Real, class In, bool logarithms>
+template <class Real, class In, bool logarithms, bool sums>
 struct Zenith {
   using Arguments = PrepareArguments<Real, In>;
 
@@ -67,8 +67,8 @@ struct Zenith {
     const auto direction = a.direction;
     Real* const cos_i = a[Field::cos_i];
     Real* const cos_r = a[Field::cos_r];
-    Real* const s_z = a[Field::s_z];
-    Real* const s_h2 = a[Field::s_h2];
+    [[maybe_unused]] Real* const s_z = a[Field::s_z];
+    [[maybe_unused]] Real* const s_h2 = a[Field::s_h2];
     Real* const tan2_b = a[Field::tan2_b];
     Real* const rest_i = a[Field::one_minus_cos_i];
     Real* const rest_r = a[Field::one_minus_cos_r];
@@ -91,8 +91,10 @@ struct Zenith {
       const In r = d.v_z > In(0.5) ? near_r : In(1) - d.v_z;
       cos_i[k] = static_cast<Real>(d.l_z);
       cos_r[k] = static_cast<Real>(d.v_z);
-      s_z[k] = static_cast<Real>(z);
-      s_h2[k] = static_cast<Real>(h2);
+      if constexpr (sums) {
+        s_z[k] = static_cast<Real>(z);
+        s_h2[k] = static_cast<Real>(h2);
+      }
       tan2_b[k] = static_cast<Real>(h2 * over_z2);
       rest_i[k] = static_cast<Real>(i);
       rest_r[k] = static_cast<Real>(r);
@@ -128,16 +130,15 @@ struct Half {
   }
 };
 
-template <class Real, class In>
+template <class Real, class In, bool both_orders>
 struct Forward {
   using Arguments = PrepareArguments<Real, In>;
 
   [[gnu::always_inline]] static void run(const Arguments& a) {
     const auto direction = a.direction;
     Real* const tan2 = a[Field::tan2_f];
-    Real* const swapped = a[Field::tan2_f_swapped];
+    [[maybe_unused]] Real* const swapped = a[Field::tan2_f_swapped];
     Real* const forward = a[Field::forward];
-    Real* const dot = a[Field::dot_h];
     const std::size_t n = a.n;
 #pragma GCC ivdep
     for (std::size_t k = 0; k < n; ++k) {
@@ -148,13 +149,14 @@ struct Forward {
       const bool is_forward = (along < In(0)) & (along2 > In(0));
       const In below = In(1) / (is_forward ? along2 : In(1));
       const In t = (square(d.v_z) * (square(d.l_x) + square(d.l_y)) + across2) * below;
-      const In s = (square(d.l_z) * (square(d.v_x) + square(d.v_y)) + across2) * below;
       // What no Real holds is as good as infinite: the lobe is nothing there.
       constexpr In most = static_cast<In>(std::numeric_limits<Real>::max());
       tan2[k] = static_cast<Real>(is_forward ? lane::at_most(most, t) : In(0));
-      swapped[k] = static_cast<Real>(is_forward ? lane::at_most(most, s) : In(0));
+      if constexpr (both_orders) {
+        const In s = (square(d.l_z) * (square(d.v_x) + square(d.v_y)) + across2) * below;
+        swapped[k] = static_cast<Real>(is_forward ? lane::at_most(most, s) : In(0));
+      }
       forward[k] = is_forward ? Real(1) : Real(0);
-      dot[k] = static_cast<Real>(along);
     }
   }
 };
@@ -181,15 +183,22 @@ template <class Real, class In>
 std::vector<Loop<PrepareArguments<Real, In>>> preparations(Fields fields, InstructionSet set) {
   using enum Field;
   std::vector<Loop<PrepareArguments<Real, In>>> loops;
+  const bool sums = fields.any_of({s_z, s_h2});
   if (fields.any_of({log_one_minus_cos_i, log_one_minus_cos_r})) {
-    loops.push_back(Vectorised<Zenith<Real, In, true>>::of(set));
+    loops.push_back(sums ? Vectorised<Zenith<Real, In, true, true>>::of(set)
+                         : Vectorised<Zenith<Real, In, true, false>>::of(set));
   } else if (fields.any_of({one_minus_cos_i, one_minus_cos_r})) {
-    loops.push_back(Vectorised<Zenith<Real, In, false>>::of(set));
+    loops.push_back(sums ? Vectorised<Zenith<Real, In, false, true>>::of(set)
+                         : Vectorised<Zenith<Real, In, false, false>>::of(set));
   } else {
     loops.push_back(Vectorised<Sum<Real, In>>::of(set));
   }
   if (fields.any_of({cos_h, one_minus_cos_h})) loops.push_back(Vectorised<Half<Real, In>>::of(set));
-  if (fields.any_of({tan2_f, tan2_f_swapped, forward, dot_h})) loops.push_back(Vectorised<Forward<Real, In>>::of(set));
+  if (fields.has(tan2_f_swapped)) {
+    loops.push_back(Vectorised<Forward<Real, In, true>>::of(set));
+  } else if (fields.any_of({tan2_f, forward})) {
+    loops.push_back(Vectorised<Forward<Real, In, false>>::of(set));
+  }
   if (fields.has(mirror_distance2)) loops.push_back(Vectorised<Mirror<Real, In>>::of(set));
   return loops;
 }

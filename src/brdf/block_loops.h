@@ -142,7 +142,8 @@ struct CombineArguments {
 template <class Real, class Out>
 [[nodiscard]] Loop<CombineArguments<Real, Out>> combine(Use mirror, Use below, bool fs, InstructionSet);
 
-/// Geometry from unit vectors: the fields asked for, and those that come with them, computed in In and rounded to Real.
+/// Geometry from unit vectors: the fields asked for, and some that come with them, computed in In and rounded to Real.
+/// dot_h and what belongs to azimuths is not among them.
 template <class Real, class In>
 struct PrepareArguments {
   std::array<const In*, 6> direction;  ///< l_x, l_y, l_z, v_x, v_y, v_z

@@ -186,7 +186,8 @@ void SurfaceProgram<Out, Real>::add_fields() {
   if (visibility_ != nullptr) fields_ |= block::fields_of(dd_, shape_.shadowing, shape_.effective_roughness);
   if (dd_ && !by_pair_) fields_ |= {tan2_b};
   if (wave_ && !by_pair_) fields_ |= {s_z, s_h2};
-  if (fs_loop_ != nullptr) fields_ |= {one_minus_cos_i, one_minus_cos_r, tan2_f, tan2_f_swapped, forward};
+  if (fs_loop_ != nullptr) fields_ |= {one_minus_cos_i, one_minus_cos_r, tan2_f, forward};
+  if (fs_loop_ != nullptr && shape_.forms.fs == FsForm::reciprocal) fields_ |= {tan2_f_swapped};
   if (coherent_) fields_ |= {mirror_distance2};
   for (const ChannelPlan<Real>& p : plans_) {
     if (p.mirror == Use::schlick || p.mirror == Use::array) fields_ |= {cos_h, one_minus_cos_h};

@@ -2,13 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
+#include <span>
+#include <utility>
 
 #include "brdf/evaluator.h"
 #include "brdf/surface_shape.h"
 #include "fit/fit_spread.h"
 #include "fit/loss.h"
 #include "fit/noise_model.h"
+#include "fit/order_statistics.h"
 #include "fit/verdict.h"
 #include "geometry/angles.h"
 #include "scan/arrangement.h"
@@ -27,46 +29,58 @@ constexpr double open_sds = 3.0;
 // Sums that a misfit is made of.
 struct Sums {
   double r2 = 0.0, f2 = 0.0, r = 0.0, f = 0.0, signed_r2 = 0.0;
-  std::vector<double> parts;  // |r| / max(|f|, |model|) above the noise
 
-  void add(double weight, double value, double fitted, double floor, double open) {
-    const double residual = value - fitted;
+  void add(double weight, double value, double residual) {
     r2 += weight * residual * residual;
     signed_r2 += weight * residual * std::fabs(residual);
     f2 += weight * value * value;
     r += weight * std::fabs(residual);
     f += weight * std::fabs(value);
-    const double larger = std::max(std::fabs(value), std::fabs(fitted));
-    if (larger > floor) parts.push_back(std::max(0.0, std::fabs(residual) - open) / larger);
   }
   void add(const Sums& other) {
     r2 += other.r2, f2 += other.f2, r += other.r, f += other.f, signed_r2 += other.signed_r2;
-    parts.insert(parts.end(), other.parts.begin(), other.parts.end());
   }
-  [[nodiscard]] std::optional<double> typical() {
+  /// `parts`: |r| / max(|f|, |model|) above the noise.
+  [[nodiscard]] Misfit misfit(std::vector<double>& parts) const {
+    return {f2 > 0.0 ? std::sqrt(r2 / f2) : 0.0, f > 0.0 ? r / f : 0.0, typical(parts)};
+  }
+  [[nodiscard]] static std::optional<double> typical(std::vector<double>& parts) {
     return parts.empty() ? std::nullopt : std::optional(median_of(parts));
   }
-  [[nodiscard]] Misfit misfit() { return {f2 > 0.0 ? std::sqrt(r2 / f2) : 0.0, f > 0.0 ? r / f : 0.0, typical()}; }
 };
 
 double quotient(double part, double whole) { return whole > 0.0 ? part / whole : 0.0; }
 
+// Whether directions are as near as near_deg, by their squared chord: the angle itself takes an arcsine, and is asked
+// for on the edge alone.
+bool is_near(double chord2, double (*angle_deg)(const Pair&), const Pair& pair) {
+  static const double edge = std::pow(2.0 * sin_deg(0.5 * near_deg), 2);
+  if (std::fabs(chord2 - edge) > 1e-9 * edge) return chord2 < edge;
+  return angle_deg(pair) <= near_deg;
+}
+
 Region region_of(const Scan& scan, std::size_t row, const Pair& pair) {
-  if (from_mirror_deg(pair) <= near_deg) return Region::mirror;
-  if (from_retro_deg(pair) <= near_deg) return Region::retro;
+  if (is_near(pair.mirror_distance2, from_mirror_deg, pair)) return Region::mirror;
+  if (is_near(4.0 * pair.one_minus_cos_h * (1.0 + pair.cos_h), from_retro_deg, pair)) return Region::retro;
   return scan.theta_r_deg[row] > grazing_deg && pair.forward ? Region::forward_grazing : Region::elsewhere;
 }
 
 class Diagnosis {
  public:
-  Diagnosis(const Scan& scan, const Material& material, const DiagnosticsOptions& options)
-      : scan_(scan), material_(material), options_(options), place_(scan.size(), unused) {
+  Diagnosis(const Scan& scan, const Material& material, DiagnosticsOptions options)
+      : scan_(scan), material_(material), options_(std::move(options)), place_(scan.size(), unused) {
     choose_rows();
-    const Evaluator evaluator(material);
-    fitted_ = evaluator.values(pairs_);
-    open_ = value_uncertainties(material, pairs_, fitted_);
-    for (double& u : open_) u *= open_sds;
+    if (!options_.values) {
+      const Evaluator evaluator(material);
+      std::vector<double> fitted = evaluator.values(own_pairs_);
+      std::vector<double> open = value_uncertainties(material, own_pairs_, fitted);
+      options_.values = FittedValues{&own_pairs_, std::move(fitted), std::move(open)};
+    }
+    for (double& u : options_.values->open) u *= open_sds;
+    place_readings();
     lines_ = detector_lines(scan);
+    for (std::size_t row = 0; row < scan.size(); ++row)
+      signed_theta_r_.push_back(delta_phi_deg(scan, row) > 0.0 ? scan.theta_r_deg[row] : -scan.theta_r_deg[row]);
     pairs_of_rows_ = swapped_rows(scan);
   }
   [[nodiscard]] FitDiagnostics result();
@@ -75,14 +89,16 @@ class Diagnosis {
   static constexpr std::size_t unused = static_cast<std::size_t>(-1);
 
   void choose_rows();
+  void place_readings();
   void add_channel(std::size_t c);
   void add_misfit(std::size_t c);
-  void add_runs(std::size_t c);
+  void add_runs();
   void add_noise(std::size_t c);
   void add_counts(std::size_t c);
   void add_regions();
   void add_brightness();
   void add_chi_square();
+  [[nodiscard]] const PairBatch& pairs() const noexcept { return *options_.values->pairs; }
   [[nodiscard]] double noise_floor(std::size_t c) const;
   [[nodiscard]] std::optional<double> reciprocity(std::size_t c) const;
   [[nodiscard]] double value(std::size_t i, std::size_t c) const { return scan_.channels[c].values[rows_[i]]; }
@@ -90,8 +106,12 @@ class Diagnosis {
     return !options_.used || options_.used->left_out.empty() || options_.used->left_out[c].empty() ||
            !options_.used->left_out[c][i];
   }
-  [[nodiscard]] double fitted(std::size_t i, std::size_t c) const { return fitted_[i * scan_.channels.size() + c]; }
-  [[nodiscard]] double open(std::size_t i, std::size_t c) const { return open_[i * scan_.channels.size() + c]; }
+  [[nodiscard]] double fitted(std::size_t i, std::size_t c) const {
+    return options_.values->fitted[i * scan_.channels.size() + c];
+  }
+  [[nodiscard]] double open(std::size_t i, std::size_t c) const {
+    return options_.values->open[i * scan_.channels.size() + c];
+  }
   [[nodiscard]] double floor(std::size_t i, std::size_t c) const {
     const ScanChannel& channel = scan_.channels[c];
     return channel.u.empty() ? out_.channels[c].noise_floor : floor_sds * channel.u[rows_[i]];
@@ -100,15 +120,16 @@ class Diagnosis {
   const Scan& scan_;
   const Material& material_;
   DiagnosticsOptions options_;
-  Rows rows_;   // of the readings used
-  Rows place_;  // of each row of the scan in rows_
-  PairBatch pairs_;
-  std::vector<double> weight_, fitted_;
-  std::vector<double> open_;  // what parameters within their uncertainties change the fitted values by
+  Rows rows_;            // of the readings used
+  Rows place_;           // of each row of the scan in rows_
+  PairBatch own_pairs_;  // where the options have none
+  std::vector<double> weight_;
   std::vector<Region> region_;
-  std::vector<Rows> lines_;
-  std::vector<SwappedRows> pairs_of_rows_;
+  std::vector<double> signed_theta_r_;  // by row of the scan
+  RowGroups lines_;
+  SwappedRows pairs_of_rows_;
   std::array<Sums, region_count> by_region_;
+  std::array<std::vector<double>, region_count> parts_;  // of every channel: see Sums::misfit
   FitDiagnostics out_;
 };
 
@@ -117,13 +138,18 @@ void Diagnosis::choose_rows() {
   for (std::size_t row = 0; row < scan_.size() && !options_.used; ++row) {
     if (std::max(scan_.theta_i_deg[row], scan_.theta_r_deg[row]) < 90.0) rows.push_back(row);
   }
-  for (const std::size_t row : options_.used ? options_.used->rows : rows) {
-    const Pair pair = make_pair(scan_.angles(row));
-    place_[row] = rows_.size();
-    rows_.push_back(row);
-    pairs_.push_back(pair);
+  rows_ = options_.used ? std::move(options_.used->rows) : std::move(rows);
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    place_[rows_[i]] = i;
+    if (!options_.values) own_pairs_.push_back(make_pair(scan_.angles(rows_[i])));
+  }
+}
+
+void Diagnosis::place_readings() {
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const Pair pair = pairs()[i];
     weight_.push_back(has_cosine(options_.weight) ? pair.cos_i : 1.0);
-    region_.push_back(region_of(scan_, row, pair));
+    region_.push_back(region_of(scan_, rows_[i], pair));
   }
 }
 
@@ -134,16 +160,13 @@ double Diagnosis::noise_floor(std::size_t c) const {
   std::vector<double> sizes;
   for (std::size_t i = 0; i < rows_.size(); ++i) sizes.push_back(std::fabs(value(i, c)));
   if (sizes.empty()) return 0.0;
-  const auto quarter = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 4);
-  std::nth_element(sizes.begin(), quarter, sizes.end());
-  const double dark = *quarter;
+  const double dark = value_at_rank(sizes, sizes.size() / 4);
   const std::vector<double>& values = scan_.channels[c].values;
   std::vector<double> differences;
-  for (const Rows& line : lines_) {
+  for (std::size_t l = 0; l < lines_.size(); ++l) {
+    const std::span<const std::size_t> line = lines_[l];
     for (std::size_t j = 1; j + 1 < line.size(); ++j) {
-      const auto at = [&](std::size_t k) {
-        return delta_phi_deg(scan_, line[k]) > 0.0 ? scan_.theta_r_deg[line[k]] : -scan_.theta_r_deg[line[k]];
-      };
+      const auto at = [&](std::size_t k) { return signed_theta_r_[line[k]]; };
       if (std::fabs(values[line[j]]) > dark || !(at(j + 1) > at(j - 1))) continue;
       const double t = (at(j) - at(j - 1)) / (at(j + 1) - at(j - 1));
       const double off = values[line[j]] - (1.0 - t) * values[line[j - 1]] - t * values[line[j + 1]];
@@ -164,29 +187,40 @@ std::optional<double> Diagnosis::reciprocity(std::size_t c) const {
 
 void Diagnosis::add_misfit(std::size_t c) {
   std::array<Sums, region_count> regions;
+  std::array<std::ptrdiff_t, region_count> before{};
+  for (std::size_t k = 0; k < region_count; ++k) before[k] = std::ssize(parts_[k]);
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     if (!counts(i, c)) continue;
-    regions[static_cast<std::size_t>(region_[i])].add(weight_[i], value(i, c), fitted(i, c), floor(i, c), open(i, c));
+    const auto region = static_cast<std::size_t>(region_[i]);
+    const double residual = value(i, c) - fitted(i, c);
+    regions[region].add(weight_[i], value(i, c), residual);
+    const double larger = std::max(std::fabs(value(i, c)), std::fabs(fitted(i, c)));
+    if (larger > floor(i, c)) parts_[region].push_back(std::max(0.0, std::fabs(residual) - open(i, c)) / larger);
   }
   Sums channel;
+  std::vector<double> parts;
   for (std::size_t k = 0; k < region_count; ++k) {
     channel.add(regions[k]);
     by_region_[k].add(regions[k]);
+    parts.insert(parts.end(), parts_[k].begin() + before[k], parts_[k].end());
   }
-  out_.channels[c].misfit = channel.misfit();
+  out_.channels[c].misfit = channel.misfit(parts);
 }
 
-void Diagnosis::add_runs(std::size_t c) {
-  std::vector<double> residuals;
-  for (const Rows& line : lines_) {
-    residuals.clear();
-    for (const std::size_t row : line) {
+// All channels along one way through the scan, which is no way through memory.
+void Diagnosis::add_runs() {
+  std::vector<std::vector<double>> residuals(out_.channels.size());
+  for (std::size_t l = 0; l < lines_.size(); ++l) {
+    for (std::vector<double>& own : residuals) own.clear();
+    for (const std::size_t row : lines_[l]) {
       const std::size_t i = place_[row];
-      if (i == unused || !counts(i, c) || in_mirror_cone(pairs_[i], material_.solid_angle_sr)) continue;
-      const double residual = value(i, c) - fitted(i, c);
-      if (std::fabs(residual) > open(i, c)) residuals.push_back(residual);
+      if (i == unused || pairs().mirror_distance2[i] <= material_.solid_angle_sr / pi) continue;
+      for (std::size_t c = 0; c < residuals.size(); ++c) {
+        const double residual = value(i, c) - fitted(i, c);
+        if (counts(i, c) && std::fabs(residual) > open(i, c)) residuals[c].push_back(residual);
+      }
     }
-    out_.channels[c].runs.add_line(residuals);
+    for (std::size_t c = 0; c < residuals.size(); ++c) out_.channels[c].runs.add_line(residuals[c]);
   }
 }
 
@@ -205,9 +239,11 @@ void Diagnosis::add_noise(std::size_t c) {
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     if (!counts(i, c)) continue;
     const double size = std::fabs(value(i, c) - fitted(i, c));
-    const double sds = quotient(size, noise.sd(fitted(i, c)));
     const double larger = std::max(std::fabs(value(i, c)), fitted(i, c));
-    if (sds <= outlier_sds || size <= negligible_misfit * larger) continue;
+    const double relative = noise.relative * fitted(i, c);
+    const double variance = relative * relative + noise.additive * noise.additive;
+    if (size * size <= outlier_sds * outlier_sds * variance || size <= negligible_misfit * larger) continue;
+    const double sds = quotient(size, noise.sd(fitted(i, c)));
     ++out_.outlier_count;
     out_.outliers.push_back({rows_[i], c, value(i, c), fitted(i, c), sds});
   }
@@ -228,7 +264,6 @@ void Diagnosis::add_channel(std::size_t c) {
   channel.noise_floor = noise_floor(c);
   channel.reciprocity = reciprocity(c);
   add_misfit(c);
-  add_runs(c);
   add_noise(c);
   add_counts(c);
 }
@@ -236,34 +271,32 @@ void Diagnosis::add_channel(std::size_t c) {
 void Diagnosis::add_regions() {
   Sums all;
   for (const Sums& sums : by_region_) all.add(sums);
-  out_.misfit = all.misfit();
-  for (const Region region : region_) ++out_.regions[static_cast<std::size_t>(region)].readings;
+  std::vector<double> all_parts;
   for (std::size_t k = 0; k < region_count; ++k) {
-    Sums& sums = by_region_[k];
+    const Sums& sums = by_region_[k];
     RegionMisfit& to = out_.regions[k];
     to.of_misfit = quotient(sums.r2, all.r2);
     to.of_signal = quotient(sums.f2, all.f2);
     to.excess = quotient(sums.signed_r2, sums.r2);
-    to.typical = sums.typical();
+    to.typical = Sums::typical(parts_[k]);
+    all_parts.insert(all_parts.end(), parts_[k].begin(), parts_[k].end());
+    parts_[k] = {};
   }
+  out_.misfit = all.misfit(all_parts);
 }
 
 void Diagnosis::add_brightness() {
   std::vector<double> squares;
   std::vector<double> positive;
-  double total = 0.0;
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     for (std::size_t c = 0; c < scan_.channels.size(); ++c) {
       if (!counts(i, c)) continue;
       squares.push_back(weight_[i] * value(i, c) * value(i, c));
-      total += squares.back();
       if (value(i, c) > 0.0) positive.push_back(value(i, c));
     }
   }
   out_.readings = squares.size();
-  std::sort(squares.begin(), squares.end(), std::greater<>());
-  double sum = 0.0;
-  while (out_.brightest < squares.size() && sum < 0.9 * total) sum += squares[out_.brightest++];
+  out_.brightest = count_of_largest(squares, 0.9);
   if (positive.empty()) return;
   out_.brightness_range = *std::max_element(positive.begin(), positive.end()) / median_of(positive);
 }
@@ -284,7 +317,10 @@ void Diagnosis::add_chi_square() {
 
 FitDiagnostics Diagnosis::result() {
   out_.channels.resize(scan_.channels.size());
+  for (const Region region : region_) ++out_.regions[static_cast<std::size_t>(region)].readings;
+  for (std::size_t k = 0; k < region_count; ++k) parts_[k].reserve(out_.regions[k].readings * scan_.channels.size());
   for (std::size_t c = 0; c < scan_.channels.size(); ++c) add_channel(c);
+  add_runs();
   add_regions();
   add_brightness();
   add_chi_square();
@@ -314,8 +350,8 @@ std::string_view name_of(Region region) noexcept {
 
 double Misfit::typical_factor() const noexcept { return 1.0 / (1.0 - std::min(typical.value_or(0.0), 1.0)); }
 
-FitDiagnostics diagnose(const Scan& scan, const Material& material, const DiagnosticsOptions& options) {
-  return Diagnosis(scan, material, options).result();
+FitDiagnostics diagnose(const Scan& scan, const Material& material, DiagnosticsOptions options) {
+  return Diagnosis(scan, material, std::move(options)).result();
 }
 
 }  // namespace goniofit

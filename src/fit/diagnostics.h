@@ -97,13 +97,21 @@ struct UsedReadings {
   std::vector<std::vector<bool>> left_out{};  ///< by channel and row in `rows`; empty where none of a channel is
 };
 
-struct DiagnosticsOptions {
-  Weight weight = Weight::cosine;
-  std::optional<UsedReadings> used{};  ///< else all with theta below 90 degrees
-  std::size_t free_parameters = 0;     ///< that were fitted, for the degrees of freedom
+/// What a fit knows of the readings that it used, in their order.
+struct FittedValues {
+  const PairBatch* pairs = nullptr;  ///< those of the readings come first
+  std::vector<double> fitted{};      ///< [reading * channels + channel], 1/sr
+  std::vector<double> open{};        ///< what the parameters' standard uncertainties change these by
 };
 
-/// `material` has the scan's channels. O(n log n) and one evaluation a value.
-[[nodiscard]] FitDiagnostics diagnose(const Scan& scan, const Material& material, const DiagnosticsOptions& options);
+struct DiagnosticsOptions {
+  Weight weight = Weight::cosine;
+  std::optional<UsedReadings> used{};    ///< else all with theta below 90 degrees
+  std::size_t free_parameters = 0;       ///< that were fitted, for the degrees of freedom
+  std::optional<FittedValues> values{};  ///< of the readings `used`; else the material is evaluated
+};
+
+/// `material` has the scan's channels. O(n log n), and one evaluation a value and parameter where `options` has none.
+[[nodiscard]] FitDiagnostics diagnose(const Scan& scan, const Material& material, DiagnosticsOptions options);
 
 }  // namespace goniofit

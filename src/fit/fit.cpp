@@ -12,6 +12,7 @@
 #include "brdf/evaluator.h"
 #include "fit/assemble.h"
 #include "fit/fit_evidence.h"
+#include "fit/fit_spread.h"
 #include "fit/identifiability_analysis.h"
 #include "fit/likelihood_profile.h"
 #include "fit/problem.h"
@@ -26,11 +27,12 @@ namespace {
 struct Fitted {
   FitResult result;
   std::unique_ptr<Problem> problem;
+  std::unique_ptr<Model> model;
   FitPoint point;
 };
 
-void look_at(const Problem& problem, const FitPoint& point, FitEvidence& e) {
-  e.l = linearise(problem, point);
+void look_at(const Problem& problem, Model& model, const FitPoint& point, FitEvidence& e) {
+  e.l = linearise(problem, model, point);
   e.noise = reading_noise(problem, e.l);
 }
 
@@ -45,7 +47,7 @@ std::optional<std::size_t> free_fs(const Problem& problem, std::size_t channel) 
 
 // A k_fs that the readings leave open by itself is whatever their noise makes of it, since no upper bound stops it: the
 // minimum without.
-void leave_out_unseen_fs(Problem& problem, Polished& best, FitEvidence& evidence) {
+void leave_out_unseen_fs(Problem& problem, Model& model, Polished& best, FitEvidence& evidence) {
   HeldAtZero held(problem);
   FitPoint start = best.point;
   for (const OpenDirection& open : evidence.identifiability.open) {
@@ -60,12 +62,12 @@ void leave_out_unseen_fs(Problem& problem, Polished& best, FitEvidence& evidence
   }
   if (start.coefficients == best.point.coefficients) return;
   const std::size_t before = best.iterations;
-  best = polish(problem, start);
+  best = polish(problem, model, start);
   best.iterations += before;
 }
 
 // The minimum, less what cannot be in the scan: light from below a metal, and lobes that only its noise has.
-Solved solve_sensibly(Problem& problem, const FitSettings& settings, FitEvidence& evidence) {
+Solved solve_sensibly(Problem& problem, Model& model, const FitSettings& settings, FitEvidence& evidence) {
   HeldAtZero held(problem);
   const std::vector<std::size_t> opaque = opaque_channels(problem);
   for (const std::size_t c : opaque) {
@@ -74,20 +76,20 @@ Solved solve_sensibly(Problem& problem, const FitSettings& settings, FitEvidence
       if (problem.channels[c].lower[k] < problem.channels[c].upper[k]) held.hold(c, j);
     }
   }
-  Solved solved = solve(problem, settings);
+  Solved solved = solve(problem, model, settings);
   Polished& best = solved.best;
-  look_at(problem, best.point, evidence);
+  look_at(problem, model, best.point, evidence);
   const LobeTest lobes = test_lobes(problem, best.point, evidence.l, evidence.noise);
   if (!lobes.significant) {
-    best = without_lobes(problem, best);
-    look_at(problem, best.point, evidence);
+    best = without_lobes(problem, model, best);
+    look_at(problem, model, best.point, evidence);
     evidence.no_lobes = lobes;
   }
   evidence.opaque = opaque;
   evidence.identifiability = identify(problem, best.point, evidence.l, evidence.noise);
-  leave_out_unseen_fs(problem, best, evidence);
+  leave_out_unseen_fs(problem, model, best, evidence);
   if (!evidence.no_fs.empty()) {
-    look_at(problem, best.point, evidence);
+    look_at(problem, model, best.point, evidence);
     evidence.identifiability = identify(problem, best.point, evidence.l, evidence.noise);
   }
   return solved;
@@ -113,14 +115,15 @@ Fitted fit_as_asked(const Scan& scan, const FitSettings& settings) {
   auto problem = std::make_unique<Problem>(scan, settings);
   if (settings.profile) check_profile_names(*problem, *settings.profile);
   FitEvidence evidence;
-  const Solved solved = solve_sensibly(*problem, settings, evidence);
+  auto model = std::make_unique<Model>(*problem);
+  const Solved solved = solve_sensibly(*problem, *model, settings, evidence);
   FitResult result = assemble(*problem, scan, solved.best, evidence);
   const double p = noise_makes_coherence(*problem, result.material, evidence.l, evidence.noise);
   if (p >= lobe_level) return without_coherence(scan, settings, p);
   result.search_evaluations = solved.evaluations;
   result.polish_starts = solved.starts;
   result.polish_iterations = solved.iterations;
-  return {std::move(result), std::move(problem), solved.best.point};
+  return {std::move(result), std::move(problem), std::move(model), solved.best.point};
 }
 
 // Whether the scan leaves open what tells the distribution asked for from its rough limit: the tail of student-t, or
@@ -258,9 +261,12 @@ FitResult fit(const Scan& scan, const FitSettings& settings) {
     result.selection = std::move(selection);
   }
   if (has_values(result.material)) {
-    result.diagnostics = diagnose(
-        scan, result.material,
-        {.weight = result.weight, .used = used_readings(*fitted.problem), .free_parameters = free_parameters(result)});
+    result.diagnostics =
+        diagnose(scan, result.material,
+                 {.weight = result.weight,
+                  .used = used_readings(*fitted.problem),
+                  .free_parameters = free_parameters(result),
+                  .values = fitted_values(*fitted.problem, *fitted.model, fitted.point, result.material)});
   }
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;

@@ -67,7 +67,114 @@ void add_change(const Material& moved, const PairBatch& pairs, const std::vector
   }
 }
 
+// Whether the moved material is one.
+bool is_valid(const Material& moved) {
+  try {
+    validate(moved, moved.name);
+  } catch (const Error&) {
+    return false;
+  }
+  return true;
+}
+
+std::set<std::string> channel_names(const Material& material) {
+  std::set<std::string> names;
+  for (const auto& [channel, by_name] : material.fit->channel_uncertainty) {
+    for (const auto& [name, by] : by_name) names.insert(name);
+  }
+  return names;
+}
+
+// A material's values at the readings of the problem that it was fitted to, by the fit's own columns.
+class ColumnValues {
+ public:
+  ColumnValues(const Problem& problem, Model& model, const Eigen::VectorXd& shape)
+      : problem_(problem), model_(model), shape_(shape) {}
+
+  [[nodiscard]] const Eigen::VectorXd& of(const Material& m, std::size_t channel) {
+    const MaterialChannel& from = m.channels[channel];
+    const std::vector<BasisCoefficient>& coefficients = problem_.basis->coefficients();
+    SmallVector k(static_cast<Eigen::Index>(coefficients.size()));
+    for (std::size_t j = 0; j < coefficients.size(); ++j) {
+      const BasisCoefficient& c = coefficients[j];
+      k[static_cast<Eigen::Index>(j)] = c.constant() ? c.lower : from.coefficient(c.name).value_or(0.0);
+    }
+    if (problem_.free_optics == FreeOptics::n) model_.set_optics(channel, *from.n);
+    if (problem_.free_optics == FreeOptics::f0) model_.set_optics(channel, *from.f0);
+    model_.weighted_values(channel, k, values_);
+    values_ = values_.cwiseQuotient(problem_.weight).cwiseMax(0.0).cwiseMin(saturation);
+    return values_;
+  }
+  // Its shape, one parameter of it elsewhere; empty where it has none of that name.
+  [[nodiscard]] Eigen::VectorXd shape_with(const std::string& name, double by) const {
+    const std::optional<std::size_t> at = problem_.shape_index(name);
+    if (!at) return {};
+    Eigen::VectorXd out = shape_;
+    double& z = out[static_cast<Eigen::Index>(*at)];
+    z = std::log(std::exp(z) + by);
+    return out;
+  }
+  void set(const Eigen::VectorXd& shape) { model_.set_whole_shape(shape, false); }
+  [[nodiscard]] const Eigen::VectorXd& shape() const noexcept { return shape_; }
+
+ private:
+  const Problem& problem_;
+  Model& model_;
+  Eigen::VectorXd shape_, values_;
+};
+
+// Adds the squares of what the values of a channel are elsewhere.
+void add_squares(const Eigen::VectorXd& there, const FittedValues& at, std::size_t channel, std::size_t channels,
+                 std::vector<double>& variance) {
+  std::size_t i = channel;
+  for (std::size_t row = 0; i < variance.size(); ++row, i += channels) {
+    const double change = there[static_cast<Eigen::Index>(row)] - at.fitted[i];
+    variance[i] += change * change;
+  }
+}
+
+bool says_all(const Problem& problem, const Material& material) {
+  if (material.components != problem.components || !material.fit) return false;
+  if (material.components.has(Effect::rough) && material.forms.rough == RoughForm::functional) return false;
+  const std::vector<ShapeParameter>& shape = problem.basis->shape_parameters();
+  return std::all_of(shape.begin(), shape.end(), [&](const ShapeParameter& p) {
+    if (material.model != surface_model) {
+      const auto found = material.parameters.find(p.name);
+      return found != material.parameters.end() && found->second.has_value();
+    }
+    return Surface(material.surface).find(p.name)->has_value();
+  });
+}
+
 }  // namespace
+
+std::optional<FittedValues> fitted_values(const Problem& problem, Model& model, const FitPoint& point,
+                                          const Material& material) {
+  if (!says_all(problem, material)) return std::nullopt;
+  const std::size_t channels = problem.channels.size();
+  ColumnValues values(problem, model, problem.shape.at(point.z.data()));
+  values.set(values.shape());
+  FittedValues out{&problem.pairs, std::vector<double>(problem.readings() * channels),
+                   std::vector<double>(problem.readings() * channels, 0.0)};
+  for (std::size_t c = 0; c < channels; ++c) {
+    const Eigen::VectorXd& own = values.of(material, c);
+    for (std::size_t i = 0; i < problem.readings(); ++i)
+      out.fitted[i * channels + c] = own[static_cast<Eigen::Index>(i)];
+  }
+  for (const std::string& name : channel_names(material)) {
+    const Material moved = moved_channels(material, name);
+    if (!is_valid(moved)) continue;
+    for (std::size_t c = 0; c < channels; ++c) add_squares(values.of(moved, c), out, c, channels, out.open);
+  }
+  for (const auto& [name, by] : material.fit->shared_uncertainty) {
+    const Eigen::VectorXd shape = values.shape_with(name, by);
+    if (shape.size() == 0 || !is_valid(moved_shared(material, name, by))) continue;
+    values.set(shape);
+    for (std::size_t c = 0; c < channels; ++c) add_squares(values.of(material, c), out, c, channels, out.open);
+  }
+  for (double& u : out.open) u = std::sqrt(u);
+  return out;
+}
 
 std::vector<double> value_uncertainties(const Material& material, const PairBatch& pairs,
                                         const std::vector<double>& values) {
@@ -76,11 +183,9 @@ std::vector<double> value_uncertainties(const Material& material, const PairBatc
   for (const auto& [name, by] : material.fit->shared_uncertainty) {
     add_change(moved_shared(material, name, by), pairs, values, u);
   }
-  std::set<std::string> names;
-  for (const auto& [channel, by_name] : material.fit->channel_uncertainty) {
-    for (const auto& [name, by] : by_name) names.insert(name);
+  for (const std::string& name : channel_names(material)) {
+    add_change(moved_channels(material, name), pairs, values, u);
   }
-  for (const std::string& name : names) add_change(moved_channels(material, name), pairs, values, u);
   for (double& variance : u) variance = std::sqrt(variance);
   return u;
 }

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fit/dot.h"
+
 namespace goniofit {
 
 namespace {
@@ -27,6 +29,12 @@ JacobianBlock block_of(std::size_t channel, const Linearisation& l, const Parame
   for (std::size_t j = 0; j < columns.size(); ++j)
     b.jacobian.col(static_cast<Eigen::Index>(j)) = Eigen::Map<const Eigen::VectorXd>(columns[j], rows);
   return b;
+}
+
+std::vector<const double*> columns_of(const Eigen::MatrixXd& m) {
+  std::vector<const double*> columns;
+  for (Eigen::Index j = 0; j < m.cols(); ++j) columns.push_back(m.col(j).data());
+  return columns;
 }
 
 // R of m = QR.
@@ -96,9 +104,36 @@ Eigen::VectorXd JointJacobian::solve(const std::vector<Eigen::VectorXd>& v) cons
   return root_ * (root_.transpose() * transposed_times(v));
 }
 
-Eigen::VectorXd JointJacobian::leverages(std::size_t channel) const {
-  const Eigen::MatrixXd triangle = triangle_of(own_root(channel).transpose());
-  return (blocks_[channel].jacobian * triangle.transpose()).rowwise().squaredNorm();
+Eigen::VectorXd JointJacobian::leverages(std::size_t channel) const { return variances_by(channel, root_); }
+
+Eigen::VectorXd JointJacobian::variances_by(std::size_t channel, const Eigen::MatrixXd& s) const {
+  const JacobianBlock& b = blocks_[channel];
+  const Eigen::MatrixXd own = s(b.index, Eigen::all);
+  const Eigen::MatrixXd root = triangle_of(own.transpose()).transpose();
+  Eigen::VectorXd out = Eigen::VectorXd::Zero(b.jacobian.rows());
+  const std::vector<const double*> columns = columns_of(b.jacobian);
+  add_squared_norms(columns.data(), columns.size(), root.data(), static_cast<std::size_t>(root.cols()),
+                    static_cast<std::size_t>(out.size()), out.data());
+  return out;
+}
+
+Eigen::MatrixXd JointJacobian::rough_meat(const std::vector<Eigen::VectorXd>& variance) const {
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(size(), size());
+  for (std::size_t c = 0; c < blocks_.size(); ++c) {
+    const Eigen::MatrixXd& jacobian = blocks_[c].jacobian;
+    const std::vector<const double*> columns = columns_of(jacobian);
+    std::vector<double> packed(columns.size() * (columns.size() + 1) / 2, 0.0);
+    add_weighted_products(columns.data(), columns.size(), variance[c].data(), static_cast<std::size_t>(jacobian.rows()),
+                          packed.data());
+    Eigen::MatrixXd products(jacobian.cols(), jacobian.cols());
+    const double* from = packed.data();
+    for (Eigen::Index p = 0; p < jacobian.cols(); ++p) {
+      for (Eigen::Index q = 0; q <= p; ++q) products(q, p) = products(p, q) = *from++;
+    }
+    const Eigen::MatrixXd own = own_root(c);
+    out.noalias() += own.transpose() * (products * own);
+  }
+  return out;
 }
 
 Eigen::MatrixXd JointJacobian::meat(const std::vector<Eigen::VectorXd>& e) const {

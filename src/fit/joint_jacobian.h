@@ -49,6 +49,10 @@ class JointJacobian {
   /// Σ of [diag(e) J B]ᵀ [diag(e) J B] over the channels: B times it times Bᵀ is (JᵀJ)⁻¹ Jᵀ diag(e²) J (JᵀJ)⁻¹. By
   /// triangles: nothing is lost to the condition of J squared.
   [[nodiscard]] Eigen::MatrixXd meat(const std::vector<Eigen::VectorXd>& e) const;
+  /// The same of e² = `variance` by products: half the digits are lost to a bad condition, and it costs a tenth.
+  [[nodiscard]] Eigen::MatrixXd rough_meat(const std::vector<Eigen::VectorXd>& variance) const;
+  /// J_i C J_iᵀ of a channel's readings, C = S Sᵀ over all parameters given by its root S.
+  [[nodiscard]] Eigen::VectorXd variances_by(std::size_t channel, const Eigen::MatrixXd& s) const;
 
  private:
   std::vector<JacobianBlock> blocks_;

@@ -109,7 +109,7 @@ double noise_makes_coherence(const Problem& problem, const Material& material, c
   return beyond(chi2, static_cast<double>(problem.channels.size()));
 }
 
-Polished without_lobes(Problem& problem, const Polished& with) {
+Polished without_lobes(Problem& problem, Model& model, const Polished& with) {
   HeldAtZero held(problem);
   FitPoint start = with.point;
   for (const std::size_t j : lobes_of(problem)) {
@@ -118,7 +118,7 @@ Polished without_lobes(Problem& problem, const Polished& with) {
       start.coefficients[c][static_cast<Eigen::Index>(j)] = 0.0;
     }
   }
-  Polished without = polish(problem, start);
+  Polished without = polish(problem, model, start);
   without.iterations += with.iterations;
   return without;
 }

@@ -68,6 +68,6 @@ class HeldAtZero {
 };
 
 /// The minimum without lobes, from the one with them.
-[[nodiscard]] Polished without_lobes(Problem& problem, const Polished& with);
+[[nodiscard]] Polished without_lobes(Problem& problem, Model& model, const Polished& with);
 
 }  // namespace goniofit

@@ -2,6 +2,8 @@
 
 #include <ceres/jet.h>
 
+#include <algorithm>
+
 #include "fit/dot.h"
 
 namespace goniofit {
@@ -80,6 +82,7 @@ void Model::fill_optics(std::size_t channel, Group& group) const {
 void Model::multiply_out(Group& group, bool derivatives) const {
   const Factors& f = factors_[group.factors];
   const auto n = static_cast<std::size_t>(f.values.rows());
+  group.squares.clear();
   group.products.resize(f.values.rows(), f.values.cols());
   if (derivatives) group.shape_products.resize(f.derivatives.rows(), f.derivatives.cols());
   for (Eigen::Index j = 0; j < f.values.cols(); ++j) {
@@ -104,8 +107,12 @@ void Model::shape_factors(const Eigen::VectorXd& shape, const PairBatch& pairs, 
   }
 }
 
-void Model::set_shape(const double* z, bool derivatives) {
-  const Eigen::VectorXd shape = problem_.shape.at(z);
+void Model::set_shape(const double* z, bool derivatives) { set_whole_shape(problem_.shape.at(z), derivatives); }
+
+void Model::set_whole_shape(const Eigen::VectorXd& shape, bool derivatives) {
+  const bool same = shape_.size() == shape.size() && shape_ == shape && shape.size() > 0;
+  if (same && (have_derivatives_ || !derivatives)) return;
+  shape_ = shape;
   Eigen::MatrixXd values(static_cast<Eigen::Index>(late_.size()), factors_.front().values.cols());
   Eigen::MatrixXd by_shape = Eigen::MatrixXd::Zero(values.rows(), factors_.front().derivatives.cols());
   for (Factors& f : factors_) {
@@ -249,8 +256,99 @@ void Model::by_optics(std::size_t channel, const SmallVector& k, Eigen::Ref<Eige
   emphasise(channel, out);
 }
 
+std::vector<const double*> Model::columns_of(const Group& group) const {
+  std::vector<const double*> columns;
+  for (Eigen::Index j = 0; j < group.products.cols(); ++j) columns.push_back(group.products.col(j).data());
+  for (Eigen::Index j = 0; j < group.products.cols(); ++j) {
+    if (!problem_.basis->columns()[static_cast<std::size_t>(j)].reads_shape) continue;
+    for (Eigen::Index parameter = 0; parameter < parameters_; ++parameter)
+      columns.push_back(group.shape_products.col(j * parameters_ + parameter).data());
+  }
+  return columns;
+}
+
+Eigen::MatrixXd Model::combinations(const SmallVector& k) const {
+  const std::vector<BasisColumn>& columns = problem_.basis->columns();
+  const auto shape_reading =
+      std::count_if(columns.begin(), columns.end(), [](const BasisColumn& c) { return c.reads_shape; });
+  const auto products = static_cast<Eigen::Index>(columns.size());
+  const Eigen::Index free = problem_.shape.free;
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(products + shape_reading * parameters_, free + k.size());
+  Eigen::Index first = products;
+  for (Eigen::Index j = 0; j < products; ++j) {
+    const BasisColumn& c = columns[static_cast<std::size_t>(j)];
+    const auto coefficient = static_cast<Eigen::Index>(c.coefficient);
+    out(j, free + coefficient) = c.power == 2 ? 2.0 * k[coefficient] : 1.0;
+    if (!c.reads_shape) continue;
+    out.block(first, 0, parameters_, free) = amplitude(j, k) * problem_.shape.map;
+    first += parameters_;
+  }
+  return out;
+}
+
+// Of channels without an emphasis of their own the products of columns are the group's; their own are those with the
+// residuals. These row by row: the difference of products would lose them where they are small.
+ChannelEquations Model::shared_equations(std::size_t channel, const SmallVector& k) {
+  Group& group = groups_[group_[channel]];
+  std::vector<const double*> columns = columns_of(group);
+  const std::size_t count = columns.size();
+  if (group.squares.empty()) {
+    group.squares.assign(count * (count + 1) / 2, 0.0);
+    add_products(columns.data(), count, problem_.samples(), group.squares.data());
+  }
+  ChannelEquations out;
+  out.loss = residuals(channel, k, scratch_);
+  Eigen::VectorXd with = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(count));
+  add_products_with(columns.data(), count, scratch_.data(), problem_.samples(), with.data());
+  Eigen::MatrixXd squares(with.size(), with.size());
+  const double* from = group.squares.data();
+  for (Eigen::Index b = 0; b < squares.cols(); ++b) {
+    for (Eigen::Index a = 0; a <= b; ++a) squares(a, b) = squares(b, a) = *from++;
+  }
+  const Eigen::MatrixXd by = combinations(k);
+  const Eigen::Index width = by.cols();
+  out.products.resize(width + 1, width + 1);
+  out.products.topLeftCorner(width, width).noalias() = by.transpose() * (squares * by);
+  out.products.col(width).head(width).noalias() = by.transpose() * with;
+  out.products.row(width).head(width) = out.products.col(width).head(width).transpose();
+  out.products(width, width) = out.loss;
+  return out;
+}
+
+ChannelEquations Model::equations(std::size_t channel, const SmallVector& k) {
+  const bool fixed = problem_.free_optics == FreeOptics::none;
+  if (fixed && problem_.quadratic() && problem_.channels[channel].emphasis.size() == 0)
+    return shared_equations(channel, k);
+  ChannelEquations out;
+  const auto n = static_cast<Eigen::Index>(problem_.samples());
+  const Eigen::Index free = problem_.shape.free;
+  const Eigen::Index width = free + k.size() + (fixed ? 0 : 1);
+  Eigen::VectorXd r;
+  out.loss = residuals(channel, k, r);
+  Eigen::MatrixXd all(n, width + 1);
+  for (Eigen::Index z = 0; z < free; ++z) by_shape(channel, k, static_cast<int>(z), all.col(z));
+  for (Eigen::Index j = 0; j < k.size(); ++j)
+    by_coefficient(channel, k, static_cast<std::size_t>(j), all.col(free + j));
+  if (!fixed) by_optics(channel, k, all.col(width - 1));
+  all.col(width) = r;
+  std::vector<const double*> columns;
+  for (Eigen::Index j = 0; j <= width; ++j) columns.push_back(all.col(j).data());
+  std::vector<double> packed(columns.size() * (columns.size() + 1) / 2, 0.0);
+  add_products(columns.data(), columns.size(), problem_.samples(), packed.data());
+  out.products.resize(width + 1, width + 1);
+  const double* from = packed.data();
+  for (Eigen::Index b = 0; b <= width; ++b) {
+    for (Eigen::Index a = 0; a <= b; ++a) out.products(a, b) = out.products(b, a) = *from++;
+  }
+  return out;
+}
+
 Linearisation linearise(const Problem& problem, const FitPoint& point) {
   Model model(problem);
+  return linearise(problem, model, point);
+}
+
+Linearisation linearise(const Problem& problem, Model& model, const FitPoint& point) {
   model.set_shape(point.z.data(), true);
   Linearisation l;
   double share = 0.0;

@@ -11,13 +11,22 @@
 
 namespace goniofit {
 
+/// [J r]ᵀ[J r] of a channel's residuals r and their derivatives J by the free shape parameters, the coefficients and,
+/// where they are free, the optics, in that order; r is last.
+struct ChannelEquations {
+  Eigen::MatrixXd products;
+  double loss = 0.0;
+};
+
 class Model {
  public:
   explicit Model(const Problem& problem);
 
   /// Computes the shape factors at z (problem.shape.free values), with their derivatives if asked for. What follows is
-  /// at the shape set last.
+  /// at the shape set last. Nothing is computed again where it is the same.
   void set_shape(const double* z, bool derivatives);
+  /// The same for all shape parameters at once, free or not.
+  void set_whole_shape(const Eigen::VectorXd& shape, bool derivatives);
   /// Sets the free optical parameter of a channel; needed before the channel is read where the problem leaves it free.
   void set_optics(std::size_t channel, double value);
 
@@ -43,6 +52,8 @@ class Model {
                       Eigen::Ref<Eigen::VectorXd> out) const;
   /// d residual / d (f0 or n).
   void by_optics(std::size_t channel, const SmallVector& k, Eigen::Ref<Eigen::VectorXd> out) const;
+  /// What a step reads of a channel's residuals and derivatives; needs set_shape(.., true).
+  [[nodiscard]] ChannelEquations equations(std::size_t channel, const SmallVector& k);
 
  private:
   /// Shape factors at one wavelength.
@@ -59,6 +70,7 @@ class Model {
     Eigen::MatrixXd optics_derivatives;  ///< by the free optical parameter; empty where fixed
     Eigen::MatrixXd products;            ///< optics * shape factor
     Eigen::MatrixXd shape_products;      ///< optics * derivative of the shape factor
+    std::vector<double> squares;         ///< add_products of columns_of(group); empty where not yet asked for
   };
   /// What a column is multiplied by: its coefficient, or the square of it.
   [[nodiscard]] double amplitude(Eigen::Index column, const SmallVector& k) const noexcept;
@@ -71,6 +83,11 @@ class Model {
   std::size_t factors_for(double wavelength_um);
   void fill_optics(std::size_t channel, Group& group) const;
   void multiply_out(Group& group, bool derivatives) const;
+  /// The products, then the shape products that are not zero throughout.
+  [[nodiscard]] std::vector<const double*> columns_of(const Group& group) const;
+  /// What of them makes the derivatives, a column a parameter; columns of equations().
+  [[nodiscard]] Eigen::MatrixXd combinations(const SmallVector& k) const;
+  [[nodiscard]] ChannelEquations shared_equations(std::size_t channel, const SmallVector& k);
 
   /// Of a channel, at the coefficients of the last call of residuals().
   struct ChannelState {
@@ -87,6 +104,8 @@ class Model {
   std::vector<Factors> factors_;
   std::vector<Group> groups_;
   std::vector<std::size_t> group_;  ///< of each channel
+  Eigen::VectorXd shape_;           ///< set last; empty where none was
+  Eigen::VectorXd scratch_;
   bool have_derivatives_ = false;
 };
 
@@ -102,5 +121,7 @@ struct Linearisation {
   double kernel_share = 1.0;  ///< Model::kernel_share over all channels
 };
 [[nodiscard]] Linearisation linearise(const Problem& problem, const FitPoint& point);
+/// By a model of that problem, which is left at the point.
+[[nodiscard]] Linearisation linearise(const Problem& problem, Model& model, const FitPoint& point);
 
 }  // namespace goniofit

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <numeric>
+#include <vector>
+
+#include "fit/order_statistics.h"
+#include "support/radix_sort.h"
 
 namespace goniofit {
 
@@ -13,32 +16,29 @@ constexpr double smallest_noise = 1e-6;
 // Standard deviation of a normal distribution over the median of its absolute value.
 constexpr double sigma_of_median = 1.4826022185056018;
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
+double median(std::vector<double>& values) { return value_at_rank(values, values.size() / 2); }
 
 struct NoiseClass {
   double f2, variance;
 };
 
 std::vector<NoiseClass> classes_of(const Eigen::VectorXd& f, const Eigen::VectorXd& residual, double floor2) {
-  std::vector<Eigen::Index> order(static_cast<std::size_t>(f.size()));
-  std::iota(order.begin(), order.end(), Eigen::Index{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&f](Eigen::Index a, Eigen::Index b) { return std::fabs(f[a]) < std::fabs(f[b]); });
+  std::vector<KeyedRow> order(static_cast<std::size_t>(f.size()));
+  for (std::size_t i = 0; i < order.size(); ++i)
+    order[i] = {key_of_size(std::fabs(f[static_cast<Eigen::Index>(i)])), i};
+  radix_sort(order);
   const std::size_t count = std::clamp<std::size_t>(order.size() / 25, 1, 20);
   std::vector<NoiseClass> classes;
+  std::vector<double> size;
   for (std::size_t c = 0; c < count; ++c) {
-    std::vector<double> f2;
-    std::vector<double> size;
-    for (std::size_t i = c * order.size() / count; i < (c + 1) * order.size() / count; ++i) {
-      f2.push_back(f[order[i]] * f[order[i]]);
-      size.push_back(std::fabs(residual[order[i]]));
-    }
+    const std::size_t first = c * order.size() / count;
+    const std::size_t end = (c + 1) * order.size() / count;
+    size.clear();
+    for (std::size_t i = first; i < end; ++i)
+      size.push_back(std::fabs(residual[static_cast<Eigen::Index>(order[i].row)]));
     const double sigma = sigma_of_median * median(size);
-    classes.push_back({median(f2), std::max(sigma * sigma, floor2)});
+    const double middle = f[static_cast<Eigen::Index>(order[first + (end - first) / 2].row)];
+    classes.push_back({middle * middle, std::max(sigma * sigma, floor2)});
   }
   return classes;
 }
@@ -84,8 +84,9 @@ Noise estimate_noise(const Eigen::VectorXd& f, const Eigen::VectorXd& residual) 
 
 double robust_spread(const Eigen::VectorXd& deviates) {
   if (deviates.size() == 0) return 0.0;
-  const Eigen::VectorXd size = deviates.cwiseAbs();
-  return sigma_of_median * median({size.begin(), size.end()});
+  const Eigen::VectorXd absolute = deviates.cwiseAbs();
+  std::vector<double> size(absolute.begin(), absolute.end());
+  return sigma_of_median * median(size);
 }
 
 }  // namespace goniofit

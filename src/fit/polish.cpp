@@ -9,7 +9,6 @@
 #include <span>
 #include <utility>
 
-#include "fit/dot.h"
 #include "fit/material_point.h"
 #include "fit/model.h"
 
@@ -71,22 +70,20 @@ struct State {
   std::vector<double> storage_;
 };
 
-// Shape factors once an evaluation for all channels.
+// Shape factors once an evaluation for all channels. With their derivatives, always: these cost a seventh of what the
+// values do, and nearly every point that Ceres tries it goes on from.
 class ShapeCallback final : public ceres::EvaluationCallback {
  public:
   ShapeCallback(Model& model, const State& state) : model_(model), state_(state) {}
-  void PrepareForEvaluation(bool jacobians, bool new_point) override {
-    if (!new_point && (!jacobians || have_derivatives_)) return;
+  void PrepareForEvaluation(bool /*jacobians*/, bool /*new_point*/) override {
     std::vector<double> z = state_.point.z;
     for (std::size_t i = 0; i < state_.moving.size(); ++i) z[state_.moving[i]] = state_.shape[i];
-    model_.set_shape(z.data(), jacobians);
-    have_derivatives_ = jacobians;
+    model_.set_shape(z.data(), true);
   }
 
  private:
   Model& model_;
   const State& state_;
-  bool have_derivatives_ = false;
 };
 
 // All readings of one channel, compressed. A step of Ceres reads the residuals r and the Jacobian J only through |r|²,
@@ -100,7 +97,6 @@ class ChannelCost final : public ceres::CostFunction {
         free_shape_(static_cast<int>(state.moving.size())),
         state_(state),
         channel_(channel),
-        n_(static_cast<Eigen::Index>(problem.samples())),
         width_(free_shape_ + static_cast<Eigen::Index>(layout().size())) {
     set_num_residuals(static_cast<int>(width_) + 1);
     if (free_shape_ > 0) mutable_parameter_block_sizes()->push_back(free_shape_);
@@ -116,18 +112,17 @@ class ChannelCost final : public ceres::CostFunction {
       if (layout().optics) model_.set_optics(channel_, x[layout().coefficients.size()]);
     }
     if (!layout().optics && !state_.point.optics.empty()) model_.set_optics(channel_, state_.point.optics[channel_]);
-    Eigen::VectorXd r;
-    const double loss = model_.residuals(channel_, k, r);
     Eigen::Map<Eigen::VectorXd> compressed(residuals, width_ + 1);
     if (jacobians == nullptr) {
       compressed.setZero();
-      compressed[width_] = std::sqrt(loss);
+      compressed[width_] = std::sqrt(model_.residuals(channel_, k, scratch_));
       return true;
     }
-    const Eigen::MatrixXd triangle = compress(jacobian(k), r);
+    const ChannelEquations e = model_.equations(channel_, k);
+    const Eigen::MatrixXd triangle = compress(e.products);
     compressed = triangle.col(width_);
     // What a robust kernel's loss exceeds the squares by depends on no step: the row that no parameter moves has it.
-    if (problem_.robust) compressed[width_] = std::sqrt(std::max(0.0, loss - compressed.head(width_).squaredNorm()));
+    if (problem_.robust) compressed[width_] = std::sqrt(std::max(0.0, e.loss - compressed.head(width_).squaredNorm()));
     copy_columns(triangle, 0, free_shape_, free_shape_ > 0 ? jacobians[0] : nullptr);
     copy_columns(triangle, free_shape_, width_ - free_shape_,
                  layout().size() > 0 ? jacobians[free_shape_ > 0 ? 1 : 0] : nullptr);
@@ -137,23 +132,19 @@ class ChannelCost final : public ceres::CostFunction {
  private:
   [[nodiscard]] const ChannelLayout& layout() const noexcept { return state_.channels[channel_]; }
 
-  [[nodiscard]] Eigen::MatrixXd jacobian(const SmallVector& k) const {
-    Eigen::MatrixXd j(n_, width_);
-    Eigen::Index column = 0;
-    for (const std::size_t z : state_.moving) model_.by_shape(channel_, k, static_cast<int>(z), j.col(column++));
-    for (const std::size_t own : layout().coefficients) model_.by_coefficient(channel_, k, own, j.col(column++));
-    if (layout().optics) model_.by_optics(channel_, k, j.col(column));
-    return j;
-  }
-
-  // The upper triangle R with RᵀR = [J r]ᵀ[J r]. A column that depends on those before it gets a row of zeros.
-  [[nodiscard]] Eigen::MatrixXd compress(const Eigen::MatrixXd& j, const Eigen::VectorXd& r) const {
-    const auto n = static_cast<std::size_t>(n_);
-    const auto column = [&](Eigen::Index i) { return i < width_ ? j.col(i).data() : r.data(); };
+  // The upper triangle R with RᵀR = [J r]ᵀ[J r], of the parameters that move. A column that depends on those before it
+  // gets a row of zeros.
+  [[nodiscard]] Eigen::MatrixXd compress(const Eigen::MatrixXd& products) const {
+    std::vector<Eigen::Index> at;
+    const auto free = static_cast<std::size_t>(problem_.shape.free);
+    for (const std::size_t z : state_.moving) at.push_back(static_cast<Eigen::Index>(z));
+    for (const std::size_t own : layout().coefficients) at.push_back(static_cast<Eigen::Index>(free + own));
+    if (layout().optics) at.push_back(products.cols() - 2);
+    at.push_back(products.cols() - 1);
     Eigen::MatrixXd triangle = Eigen::MatrixXd::Zero(width_ + 1, width_ + 1);
     for (Eigen::Index b = 0; b <= width_; ++b) {
       for (Eigen::Index a = 0; a <= b; ++a) {
-        const double product = dot(column(a), column(b), n);
+        const double product = products(at[static_cast<std::size_t>(a)], at[static_cast<std::size_t>(b)]);
         const double rest = product - triangle.col(a).head(a).dot(triangle.col(b).head(a));
         if (a < b) {
           triangle(a, b) = triangle(a, a) > 0.0 ? rest / triangle(a, a) : 0.0;
@@ -176,8 +167,27 @@ class ChannelCost final : public ceres::CostFunction {
   int free_shape_;
   const State& state_;
   std::size_t channel_;
-  Eigen::Index n_, width_;
+  Eigen::Index width_;
+  mutable Eigen::VectorXd scratch_;
 };
+
+// Of all channels at a point.
+struct PointEquations {
+  std::vector<ChannelEquations> channels;
+  double loss = 0.0;
+
+  [[nodiscard]] Eigen::Index residuals() const noexcept { return channels.front().products.cols() - 1; }
+};
+
+PointEquations equations_at(Model& model, const FitPoint& point) {
+  model.set_shape(point.z.data(), true);
+  PointEquations out;
+  for (std::size_t c = 0; c < point.coefficients.size(); ++c) {
+    if (!point.optics.empty()) model.set_optics(c, point.optics[c]);
+    out.loss += out.channels.emplace_back(model.equations(c, point.coefficients[c])).loss;
+  }
+  return out;
+}
 
 ceres::Solver::Options solver_options(const Problem& problem, double tolerance) {
   ceres::Solver::Options options;
@@ -264,52 +274,55 @@ struct Pressure {
   }
 };
 
-Pressure coefficient_pressure(const Problem& problem, const Linearisation& l, const FitPoint& p, std::size_t c,
+Pressure coefficient_pressure(const Problem& problem, const PointEquations& e, const FitPoint& p, std::size_t c,
                               std::size_t column) {
   const auto j = static_cast<Eigen::Index>(column);
   const ProblemChannel& channel = problem.channels[c];
-  const auto& v = l.by_coefficient[c].col(j);
+  const Eigen::MatrixXd& products = e.channels[c].products;
+  const Eigen::Index at = problem.shape.free + j;
   const double k = p.coefficients[c][j];
-  return {steepness(v.dot(l.residuals[c]), v.squaredNorm(), 1.0 + std::fabs(k), l.loss, problem.total),
-          k <= channel.lower[j], k >= channel.upper[j], channel.lower[j] >= channel.upper[j] || v.squaredNorm() == 0.0};
+  return {steepness(products(at, e.residuals()), products(at, at), 1.0 + std::fabs(k), e.loss, problem.total),
+          k <= channel.lower[j], k >= channel.upper[j],
+          channel.lower[j] >= channel.upper[j] || products(at, at) == 0.0};
 }
 
-Pressure optics_pressure(const Problem& problem, const Linearisation& l, const FitPoint& p, std::size_t c) {
+Pressure optics_pressure(const Problem& problem, const PointEquations& e, const FitPoint& p, std::size_t c) {
   const ProblemChannel& channel = problem.channels[c];
-  const Eigen::VectorXd& v = l.by_optics[c];
-  return {steepness(v.dot(l.residuals[c]), v.squaredNorm(), 1.0, l.loss, problem.total),
+  const Eigen::MatrixXd& products = e.channels[c].products;
+  const Eigen::Index at = e.residuals() - 1;
+  return {steepness(products(at, at + 1), products(at, at), 1.0, e.loss, problem.total),
           p.optics[c] <= channel.optics_lower, p.optics[c] >= channel.optics_upper,
-          channel.optics_lower >= channel.optics_upper || v.squaredNorm() == 0.0};
+          channel.optics_lower >= channel.optics_upper || products(at, at) == 0.0};
 }
 
-Pressure shape_pressure(const Problem& problem, const Linearisation& l, const FitPoint& p, int z) {
+Pressure shape_pressure(const Problem& problem, const PointEquations& e, const FitPoint& p, int z) {
   double product = 0.0;
   double column2 = 0.0;
-  for (std::size_t c = 0; c < problem.channels.size(); ++c) {
-    product += l.by_shape[c].col(z).dot(l.residuals[c]);
-    column2 += l.by_shape[c].col(z).squaredNorm();
+  for (const ChannelEquations& channel : e.channels) {
+    product += channel.products(z, e.residuals());
+    column2 += channel.products(z, z);
   }
   const auto i = static_cast<std::size_t>(z);
-  return {steepness(product, column2, 1.0, l.loss, problem.total), p.z[i] <= problem.shape.lower[i],
+  return {steepness(product, column2, 1.0, e.loss, problem.total), p.z[i] <= problem.shape.lower[i],
           p.z[i] >= problem.shape.upper[i], problem.shape.lower[i] >= problem.shape.upper[i]};
 }
 
 constexpr double release_tolerance = 1e-7;
 
-State layout_for(const Problem& problem, const FitPoint& point, const Linearisation& l) {
+State layout_for(const Problem& problem, const FitPoint& point, const PointEquations& e) {
   State state;
   state.point = point;
   for (int z = 0; z < problem.shape.free; ++z) {
-    if (!shape_pressure(problem, l, point, z).wants_free(release_tolerance)) continue;
+    if (!shape_pressure(problem, e, point, z).wants_free(release_tolerance)) continue;
     state.moving.push_back(static_cast<std::size_t>(z));
   }
   for (std::size_t c = 0; c < problem.channels.size(); ++c) {
     ChannelLayout& layout = state.channels.emplace_back();
     for (std::size_t j = 0; j < problem.basis->coefficients().size(); ++j) {
-      if (!coefficient_pressure(problem, l, point, c, j).wants_free(release_tolerance)) continue;
+      if (!coefficient_pressure(problem, e, point, c, j).wants_free(release_tolerance)) continue;
       layout.coefficients.push_back(j);
     }
-    if (!point.optics.empty() && optics_pressure(problem, l, point, c).wants_free(release_tolerance)) {
+    if (!point.optics.empty() && optics_pressure(problem, e, point, c).wants_free(release_tolerance)) {
       layout.optics = true;
     }
   }
@@ -318,16 +331,16 @@ State layout_for(const Problem& problem, const FitPoint& point, const Linearisat
 }
 
 // The steepest of the parameters that could still move downhill.
-double optimality_of(const Problem& problem, const FitPoint& point, const Linearisation& l) {
+double optimality_of(const Problem& problem, const FitPoint& point, const PointEquations& e) {
   double worst = 0.0;
   const auto look = [&worst](const Pressure& p) {
     if (p.wants_free(0.0)) worst = std::max(worst, std::fabs(p.steepness));
   };
-  for (int z = 0; z < problem.shape.free; ++z) look(shape_pressure(problem, l, point, z));
+  for (int z = 0; z < problem.shape.free; ++z) look(shape_pressure(problem, e, point, z));
   for (std::size_t c = 0; c < problem.channels.size(); ++c) {
     for (std::size_t j = 0; j < problem.basis->coefficients().size(); ++j)
-      look(coefficient_pressure(problem, l, point, c, j));
-    if (!point.optics.empty()) look(optics_pressure(problem, l, point, c));
+      look(coefficient_pressure(problem, e, point, c, j));
+    if (!point.optics.empty()) look(optics_pressure(problem, e, point, c));
   }
   return worst;
 }
@@ -335,24 +348,28 @@ double optimality_of(const Problem& problem, const FitPoint& point, const Linear
 }  // namespace
 
 Polished polish(const Problem& problem, const FitPoint& start, double tolerance) {
-  Polished result{start, 0, false, 0.0};
   Model model(problem);
-  Linearisation l = linearise(problem, result.point);
-  result.point.loss = l.loss;
+  return polish(problem, model, start, tolerance);
+}
+
+Polished polish(const Problem& problem, Model& model, const FitPoint& start, double tolerance) {
+  Polished result{start, 0, false, 0.0};
+  PointEquations e = equations_at(model, result.point);
+  result.point.loss = e.loss;
   // Each round solves with the bounds that press held fixed; a round after the first is needed only where one was held
   // wrongly or a new one was met.
   for (int round = 0; round < 8; ++round) {
-    State state = layout_for(problem, result.point, l);
+    State state = layout_for(problem, result.point, e);
     const bool converged = run_ceres(problem, model, state, tolerance, result.iterations);
     state.gather();
-    Linearisation at_end = linearise(problem, state.point);
+    PointEquations at_end = equations_at(model, state.point);
     const double before = result.point.loss;
     if (at_end.loss <= before) {
       result.point = state.point;
       result.point.loss = at_end.loss;
-      l = std::move(at_end);
+      e = std::move(at_end);
     }
-    result.optimality = optimality_of(problem, result.point, l);
+    result.optimality = optimality_of(problem, result.point, e);
     result.converged = converged && result.optimality < 1e-5;
     if (result.optimality < 1e-8 || result.point.loss >= before * (1.0 - std::max(tolerance, 1e-13))) break;
   }

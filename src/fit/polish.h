@@ -8,6 +8,7 @@
 
 #include "../brdf/material.h"
 #include "../scan/scan.h"
+#include "model.h"
 #include "problem.h"
 #include "search.h"
 #include "settings.h"
@@ -26,6 +27,9 @@ struct Polished {
 /// readings to much less than their noise takes prediction_accuracy.
 inline constexpr double result_accuracy = 1e-14, prediction_accuracy = 1e-6;
 [[nodiscard]] Polished polish(const Problem& problem, const FitPoint& start, double tolerance = result_accuracy);
+/// By a model of that problem.
+[[nodiscard]] Polished polish(const Problem& problem, Model& model, const FitPoint& start,
+                              double tolerance = result_accuracy);
 
 /// polish() from a material's parameters, for recovery studies: its loss is what the right minimum has to reach.
 struct PolishOutcome {

@@ -1,8 +1,13 @@
 #include "fit/reading_noise.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <vector>
+
+#include "fit/dot.h"
+#include "fit/noise_sums.h"
 
 namespace goniofit {
 
@@ -12,68 +17,66 @@ namespace {
 // has none to speak of, and whether a residual there is as small as it should be does not matter.
 constexpr double negligible = 1e-4;
 
-// Squares of residuals to be explained by additive² * first + relative² * second, with the readings' leverages.
+// See NoiseReadings.
 struct Sample {
   Eigen::ArrayXd first, second, square, leverage;
 
-  void append(const Sample& other) {
-    const auto join = [](Eigen::ArrayXd& to, const Eigen::ArrayXd& from) {
-      const Eigen::Index before = to.size();
-      to.conservativeResize(before + from.size());
-      to.tail(from.size()) = from;
-    };
-    join(first, other.first);
-    join(second, other.second);
-    join(square, other.square);
-    join(leverage, other.leverage);
-  }
   [[nodiscard]] Eigen::ArrayXd variance(const Noise& n) const {
     return n.additive * n.additive * first + n.relative * n.relative * second;
   }
+  [[nodiscard]] NoiseReadings readings() const noexcept {
+    return {first.data(), second.data(), square.data(), leverage.data(), static_cast<std::size_t>(first.size())};
+  }
 };
+using Samples = std::span<const Sample>;
 
-double negligible_variance(const Eigen::ArrayXd& variance, const Eigen::ArrayXd& leverage) {
-  const double sum = leverage.sum();
-  return sum > 0.0 ? negligible * (leverage * variance).sum() / sum : 0.0;
-}
+// `negligible` of the mean variance; what that is made of does not depend on the noise supposed.
+class NegligibleVariance {
+ public:
+  explicit NegligibleVariance(Samples samples) {
+    for (const Sample& s : samples) {
+      const auto n = static_cast<std::size_t>(s.leverage.size());
+      leverage_ += s.leverage.sum();
+      first_ += dot(s.leverage.data(), s.first.data(), n);
+      second_ += dot(s.leverage.data(), s.second.data(), n);
+      square_ += dot(s.leverage.data(), s.square.data(), n);
+    }
+  }
+  [[nodiscard]] double of(const SupposedNoise& noise) const noexcept {
+    if (!(leverage_ > 0.0)) return 0.0;
+    const double sum = noise.by_squares ? square_ : noise.additive2 * first_ + noise.relative2 * second_;
+    return negligible * sum / leverage_;
+  }
+
+ private:
+  double leverage_ = 0.0, first_ = 0.0, second_ = 0.0, square_ = 0.0;
+};
 
 // Least squares of the squares, each by its leverage over its variance squared: the readings that decide the parameters
 // decide the noise, so that what misfit the loss leaves in dark readings is no noise of bright ones.
-Noise noise_of(const Sample& s) {
-  double a2 = 0.0;
-  double r2 = 0.0;
-  Eigen::ArrayXd variance = s.square;
+Noise noise_of(Samples samples) {
+  const NegligibleVariance negligible_variance(samples);
+  SupposedNoise supposed{.by_squares = true};
   for (int round = 0; round < 30; ++round) {
-    const double before_a2 = a2;
-    const double before_r2 = r2;
-    const double floor = negligible_variance(variance, s.leverage);
-    double ff = 0.0, fs = 0.0, ss = 0.0, fy = 0.0, sy = 0.0;
-    for (Eigen::Index i = 0; i < variance.size(); ++i) {
-      const double error = variance[i] + floor;
-      if (!(error > 0.0)) continue;
-      const double g = s.leverage[i] / (error * error);
-      const double gf = g * s.first[i];
-      const double gs = g * s.second[i];
-      ff += gf * s.first[i];
-      fs += gf * s.second[i];
-      ss += gs * s.second[i];
-      fy += gf * s.square[i];
-      sy += gs * s.square[i];
-    }
-    const double determinant = ff * ss - fs * fs;
-    const bool both = determinant > 1e-12 * ff * ss;
-    a2 = both ? (fy * ss - sy * fs) / determinant : 0.0;
-    r2 = both ? (sy * ff - fy * fs) / determinant : 0.0;
+    supposed.floor = negligible_variance.of(supposed);
+    NoiseEquations e;
+    for (const Sample& s : samples) e += noise_equations(s.readings(), supposed);
+    const double determinant = e.ff * e.ss - e.fs * e.fs;
+    const bool both = determinant > 1e-12 * e.ff * e.ss;
+    double a2 = both ? (e.fy * e.ss - e.sy * e.fs) / determinant : 0.0;
+    double r2 = both ? (e.sy * e.ff - e.fy * e.fs) / determinant : 0.0;
     if (!(a2 > 0.0) || !(r2 > 0.0)) {
-      const bool relative = r2 > a2 || ff <= 0.0;
-      a2 = relative || ff <= 0.0 ? 0.0 : fy / ff;
-      r2 = relative && ss > 0.0 ? sy / ss : 0.0;
+      const bool relative = r2 > a2 || e.ff <= 0.0;
+      a2 = relative || e.ff <= 0.0 ? 0.0 : e.fy / e.ff;
+      r2 = relative && e.ss > 0.0 ? e.sy / e.ss : 0.0;
     }
-    variance = a2 * s.first + r2 * s.second;
     constexpr double settled = 1e-3;  // far below what so many readings leave open
-    if (std::fabs(a2 - before_a2) <= settled * a2 && std::fabs(r2 - before_r2) <= settled * r2) break;
+    const bool done =
+        std::fabs(a2 - supposed.additive2) <= settled * a2 && std::fabs(r2 - supposed.relative2) <= settled * r2;
+    supposed = {a2, r2};
+    if (done) break;
   }
-  return {std::sqrt(r2), std::sqrt(a2)};
+  return {std::sqrt(supposed.relative2), std::sqrt(supposed.additive2)};
 }
 
 Sample sample_of(const Eigen::VectorXd& by_value, const Eigen::VectorXd& value, const Eigen::VectorXd& residual,
@@ -83,6 +86,7 @@ Sample sample_of(const Eigen::VectorXd& by_value, const Eigen::VectorXd& value, 
   const Eigen::ArrayXd off = (by_value.array() != 0.0).select(residual.array() / by_value.array(), 0.0);
   s.second = s.first * (value.array() - off).square();
   s.leverage = (s.first > 0.0).select(leverage.array(), 0.0);
+  s.square.resize(s.first.size());
   return s;
 }
 
@@ -95,18 +99,19 @@ Sample sample_of(const Eigen::VectorXd& by_value, const Eigen::VectorXd& value, 
 void set_squares(const JointJacobian& j, const std::vector<Eigen::VectorXd>& residuals,
                  const std::vector<Eigen::VectorXd>& variance, std::vector<Sample>& samples) {
   constexpr double least_left = 0.1;
-  std::vector<Eigen::VectorXd> sd;
-  for (const Eigen::VectorXd& v : variance) sd.emplace_back(v.cwiseSqrt());
-  const Eigen::MatrixXd covariance = j.root() * j.meat(sd) * j.root().transpose();
+  const Eigen::LDLT<Eigen::MatrixXd> meat(j.rough_meat(variance));
+  const Eigen::MatrixXd factor = meat.matrixL();
+  const Eigen::MatrixXd root =
+      j.root() * (meat.transpositionsP().transpose() * factor) * meat.vectorD().cwiseMax(0.0).cwiseSqrt().asDiagonal();
   for (std::size_t c = 0; c < samples.size(); ++c) {
-    const JacobianBlock& b = j.blocks()[c];
-    const Eigen::MatrixXd own = covariance(b.index, b.index);
-    const Eigen::ArrayXd taken = (b.jacobian * own).cwiseProduct(b.jacobian).rowwise().sum();
-    const Eigen::ArrayXd v = variance[c];
+    const Eigen::VectorXd taken = j.variances_by(c, root);
     Sample& s = samples[c];
-    const Eigen::ArrayXd left = (v > 0.0).select(1.0 - 2.0 * s.leverage + taken / v, 1.0);
-    s.square = residuals[c].array().square() / left.max(least_left);
-    s.leverage = (left >= least_left).select(s.leverage, 0.0);
+    for (Eigen::Index i = 0; i < taken.size(); ++i) {
+      const double v = variance[c][i];
+      const double left = v > 0.0 ? 1.0 - 2.0 * s.leverage[i] + taken[i] / v : 1.0;
+      s.square[i] = residuals[c][i] * residuals[c][i] / std::max(left, least_left);
+      if (left < least_left) s.leverage[i] = 0.0;
+    }
   }
 }
 
@@ -119,12 +124,11 @@ struct Agreement {
 };
 
 Agreement agreement(const Sample& s, const Noise& noise) {
-  const Eigen::ArrayXd variance = s.variance(noise);
-  const Eigen::ArrayXd floored = variance + negligible_variance(variance, s.leverage);
-  const Eigen::ArrayXd weight = (floored > 0.0).select(s.leverage / floored, 0.0);
-  const double expected = (weight * variance).sum();
-  if (!(expected > 0.0)) return {};
-  return {(weight * s.square).sum() / expected, std::sqrt(2.0 * (weight * variance).square().sum()) / expected};
+  SupposedNoise supposed{noise.additive * noise.additive, noise.relative * noise.relative};
+  supposed.floor = NegligibleVariance({&s, 1}).of(supposed);
+  const AgreementSums sums = agreement_sums(s.readings(), supposed);
+  if (!(sums.expected > 0.0)) return {};
+  return {sums.found / sums.expected, std::sqrt(2.0 * sums.squares) / sums.expected};
 }
 
 }  // namespace
@@ -167,17 +171,20 @@ ResidualNoise residual_noise(const Problem& problem, const Linearisation& l,
   constexpr int rounds = 3;  // the first supposes the residuals' own squares
   for (int round = 0; round < rounds; ++round) {
     set_squares(j, residuals, out.variance, samples);
-    Sample all;
-    for (const Sample& own : samples) all.append(own);
-    const Noise common = noise_of(all);
+    const Noise common = noise_of(samples);
     out.holds = true;
     for (std::size_t c = 0; c < samples.size(); ++c) {
-      const Noise noise = agreement(samples[c], common).holds(2.5, 0.05) ? common : noise_of(samples[c]);
+      const Noise noise = agreement(samples[c], common).holds(2.5, 0.05) ? common : noise_of({&samples[c], 1});
       out.variance[c] = samples[c].variance(noise);
       out.holds = out.holds && agreement(samples[c], noise).holds(4.0, 0.1);
     }
-    const double leverage2 = all.leverage.square().sum();
-    out.freedom = leverage2 > 0.0 ? all.leverage.sum() * all.leverage.sum() / leverage2 : 1.0;
+    double leverage = 0.0;
+    double leverage2 = 0.0;
+    for (const Sample& own : samples) {
+      leverage += own.leverage.sum();
+      leverage2 += own.leverage.square().sum();
+    }
+    out.freedom = leverage2 > 0.0 ? leverage * leverage / leverage2 : 1.0;
   }
   return out;
 }

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "fit/order_statistics.h"
+
 namespace goniofit {
 
 void RunsTest::add_line(const std::vector<double>& residuals) {
@@ -34,10 +36,6 @@ ReducedChiSquare reduced_chi_square(double chi_square, std::size_t degrees_of_fr
           boost::math::quantile(distribution, 0.975) / dof};
 }
 
-double median_of(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>((values.size() - 1) / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
+double median_of(std::vector<double>& values) { return value_at_rank(values, (values.size() - 1) / 2); }
 
 }  // namespace goniofit

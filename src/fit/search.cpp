@@ -4,6 +4,7 @@
 #include <boost/math/tools/minima.hpp>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 
 #include "fit/profile.h"
 
@@ -36,7 +37,8 @@ constexpr std::size_t most_cells = 20000;
 
 class Search {
  public:
-  explicit Search(const Problem& problem) : problem_(problem), profile_(problem) {
+  Search(const Problem& problem, RowSelection selection)
+      : problem_(problem), thinned_(!selection.all()), profile_(problem, std::move(selection)) {
     double coarser = 1.0;
     do {
       axes_.clear();
@@ -62,6 +64,7 @@ class Search {
   void refine_along(std::size_t axis, double reach, std::vector<double>& z);
 
   const Problem& problem_;
+  bool thinned_;
   Profile profile_;
   std::vector<Axis> axes_;
   std::vector<double> losses_;  ///< of the grid, the last axis fastest
@@ -208,17 +211,19 @@ SearchOutcome Search::run(std::size_t most) {
   }
   auto& minima = outcome.minima;
   std::stable_sort(minima.begin(), minima.end(), [](const FitPoint& a, const FitPoint& b) { return a.loss < b.loss; });
-  const double limit = (many ? 2.0 : 1.05) * minima.front().loss + 1e-12 * problem_.total;
+  // Estimates of losses that are equal differ by some hundredths.
+  const double limit = (many ? 2.0 : thinned_ ? 1.3 : 1.05) * minima.front().loss + 1e-12 * problem_.total;
   std::erase_if(minima, [limit](const FitPoint& p) { return p.loss > limit; });
   minima.resize(std::min(minima.size(), most));
   outcome.evaluations = profile_.evaluations();
+  outcome.thinned = thinned_;
   return outcome;
 }
 
 }  // namespace
 
-SearchOutcome search(const Problem& problem, std::size_t most) {
-  if (problem.shape.free > 0) return Search(problem).run(most);
+SearchOutcome search(const Problem& problem, std::size_t most, bool all_readings) {
+  if (problem.shape.free > 0) return Search(problem, all_readings ? RowSelection{} : searched_rows(problem)).run(most);
   Profile profile(problem);
   SearchOutcome outcome;
   outcome.minima.push_back(profile.point(nullptr));

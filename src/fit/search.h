@@ -22,11 +22,13 @@ struct FitPoint {
 struct SearchOutcome {
   std::vector<FitPoint> minima;  ///< best first
   std::size_t evaluations = 0;   ///< points of the profile
+  bool thinned = false;          ///< of a large scan: the losses are estimates
 };
 
-/// Deterministic. `most` limits the minima returned (thrice as many of models with more than four shape
+/// Deterministic. Of a scan of more than most_searched readings (thinning.h) it looks at some of them unless told to
+/// look at all. `most` limits the minima returned (thrice as many of models with more than four shape
 /// parameters); only such as come within 5 % of the best loss (plus round-off)
 /// are, or within twice of it where the grid of three and more shape parameters is coarse.
-[[nodiscard]] SearchOutcome search(const Problem& problem, std::size_t most = 3);
+[[nodiscard]] SearchOutcome search(const Problem& problem, std::size_t most = 3, bool all_readings = false);
 
 }  // namespace goniofit

@@ -40,6 +40,9 @@ constexpr std::size_t least_groups = 4;
 // which leave more.
 constexpr double hopeless = 2.0;
 
+// All that a fit of noise-free readings leaves: none is better than another for leaving less.
+double round_off(const Candidate& c) { return 1e-20 * c.problem->total; }
+
 class Selector {
  public:
   Selector(const Scan& scan, const FitSettings& settings)
@@ -133,7 +136,7 @@ void Selector::settle_coh() {
   const NoiseModel noise = noise_of(*a);
   fit_weighted(*a, noise.variance);
   fit_weighted(*b, noise.variance);
-  if (a->row.aicc < b->row.aicc || b->row.loss > hopeless * a->row.loss) return;
+  if (a->row.aicc < b->row.aicc || b->row.loss > hopeless * std::max(a->row.loss, round_off(*a))) return;
   std::erase_if(sets_, [](EffectSet s) { return s.has(Effect::coh); });
 }
 
@@ -184,7 +187,7 @@ void Selector::cross_validate(Candidate& c) {
 // errors, it predicts worse than the best; where its chi² alone passes the least BIC, no set within it has a BIC as
 // small.
 bool Selector::is_hopeless(const Candidate& c) const {
-  if (c.row.loss > hopeless * least_loss_) return true;
+  if (c.row.loss > hopeless * std::max(least_loss_, round_off(c))) return true;
   if (best_score_.size() == 0) return false;
   if (c.in_sample.sum() > hopeless * best_score_.sum()) return true;
   const Eigen::VectorXd d = c.in_sample - best_score_;

@@ -5,6 +5,21 @@
 
 #include "fit/shape_derivatives.h"
 
+namespace ceres {
+
+// By component: a choice between two objects is a choice between their addresses, which GCC does not vectorise. Found
+// by its argument, before math::select.
+[[gnu::always_inline]] inline Jet<double, 1> select(bool condition, const Jet<double, 1>& yes,
+                                                    const Jet<double, 1>& no) {
+  const double a = condition ? yes.a : no.a;
+  const double v = condition ? yes.v[0] : no.v[0];
+  Jet<double, 1> chosen(a);
+  chosen.v[0] = v;
+  return chosen;
+}
+
+}  // namespace ceres
+
 namespace goniofit {
 
 namespace {

@@ -15,9 +15,11 @@ struct Solved {
 };
 
 [[nodiscard]] Solved solve(const Problem& problem, double tolerance = result_accuracy);
+/// By a model of that problem.
+[[nodiscard]] Solved solve(const Problem& problem, Model& model, double tolerance = result_accuracy);
 
 /// The same under the kernel that the settings ask for, at their scale, or at the one that suits the residuals of the
 /// fit without it (1.4826 times their median size for a standard deviation).
-[[nodiscard]] Solved solve(Problem& problem, const FitSettings& settings);
+[[nodiscard]] Solved solve(Problem& problem, Model& model, const FitSettings& settings);
 
 }  // namespace goniofit

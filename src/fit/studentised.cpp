@@ -109,44 +109,72 @@ double SignedForm::factor(double probability) const {
 // K by JᵀΩJ, not by triangles as the covariances: of a probability three digits are enough.
 Studentised::Studentised(const JointJacobian& j, const std::vector<Eigen::VectorXd>& leverage,
                          const std::vector<Eigen::VectorXd>& variance, const std::vector<Eigen::Index>& parameters)
-    : j_(j), variance_(variance), parameters_(parameters) {
-  meat_ = Eigen::MatrixXd::Zero(j.size(), j.size());
-  for (std::size_t c = 0; c < variance.size(); ++c) {
-    const Eigen::MatrixXd& jacobian = j.blocks()[c].jacobian;
-    const Eigen::MatrixXd own = j.own_root(c);
-    const Eigen::MatrixXd weighted = variance[c].asDiagonal() * jacobian;
-    meat_.noalias() += own.transpose() * (jacobian.transpose() * weighted) * own;
-  }
+    : j_(j), variance_(variance), parameters_(parameters), meat_(j.rough_meat(variance)) {
   const Eigen::MatrixXd rows = j.root()(parameters, Eigen::all);
   truth_ = (rows * meat_).cwiseProduct(rows).rowwise().sum();
   mean_ = squares_ = Eigen::VectorXd::Zero(rows.rows());
   for (std::size_t c = 0; c < variance.size(); ++c) add(c, leverage[c]);
 }
 
+// In a channel the estimates of other channels' parameters enter through the shape alone: nearly all are the multiples
+// of one, and share what it takes the readings' time to sum.
 void Studentised::add(std::size_t c, const Eigen::VectorXd& leverage) {
   const JacobianBlock& block = j_.blocks()[c];
   const Eigen::MatrixXd own = j_.own_root(c);
-  const Eigen::ArrayXd in_fit =
-      (block.jacobian * (own * meat_ * own.transpose())).cwiseProduct(block.jacobian).rowwise().sum();
+  const Eigen::MatrixXd in_own = own * meat_ * own.transpose();
+  const Eigen::ArrayXd in_fit = (block.jacobian * in_own).cwiseProduct(block.jacobian).rowwise().sum();
   const Eigen::ArrayXd& s = s_.emplace_back(variance_[c].array() * (1.0 - 2.0 * leverage.array()) + in_fit);
   const Eigen::ArrayXd factor =
       (leverage.array() < full_leverage).select((1.0 - leverage.array()).inverse().square() * s, 0.0);
-  Eigen::ArrayXXd& parts = parts_.emplace_back(leverage.size(), mean_.size());
-  Eigen::VectorXd a(leverage.size());
+  std::vector<Direction>& directions = directions_.emplace_back();
+  std::vector<Share>& shares = shares_.emplace_back();
   for (Eigen::Index k = 0; k < mean_.size(); ++k) {
-    a.noalias() = block.jacobian * (own * j_.root().row(parameters_[static_cast<std::size_t>(k)]).transpose());
-    parts.col(k) = a.array().square() * factor;
-    mean_[k] += parts.col(k).sum();
-    squares_[k] += parts.col(k).matrix().squaredNorm();
+    const Eigen::VectorXd by = own * j_.root().row(parameters_[static_cast<std::size_t>(k)]).transpose();
+    const Share share = share_of(by, directions);
+    if (share.direction == directions.size()) directions.push_back(direction_of(c, by, factor));
+    mean_[k] += share.square * directions[share.direction].mean;
+    squares_[k] += share.square * share.square * directions[share.direction].squares;
+    shares.push_back(share);
   }
+}
+
+Studentised::Share Studentised::share_of(const Eigen::VectorXd& by, const std::vector<Direction>& directions) {
+  constexpr double alike = 1e-9;
+  for (std::size_t d = 0; d < directions.size(); ++d) {
+    const Eigen::VectorXd& other = directions[d].by;
+    const double multiple = other.squaredNorm() > 0.0 ? by.dot(other) / other.squaredNorm() : 0.0;
+    if ((by - multiple * other).norm() <= alike * by.norm()) return {d, multiple * multiple};
+  }
+  return {directions.size(), 1.0};
+}
+
+Studentised::Direction Studentised::direction_of(std::size_t c, const Eigen::VectorXd& by,
+                                                 const Eigen::ArrayXd& factor) const {
+  const Eigen::ArrayXd parts = (j_.blocks()[c].jacobian * by).array().square() * factor;
+  Direction out{by, parts.sum(), parts.matrix().squaredNorm(), {}};
+  const auto more = [](const Reading& a, const Reading& b) { return a.part > b.part; };
+  // The largest, in a heap whose front is the least of them; of equal ones the first stay.
+  for (Eigen::Index i = 0; i < parts.size(); ++i) {
+    const bool full = out.largest.size() == most_readings;
+    if (full && !(parts[i] > out.largest.front().part)) continue;
+    if (full) {
+      std::pop_heap(out.largest.begin(), out.largest.end(), more);
+      out.largest.pop_back();
+    }
+    out.largest.push_back({c, i, parts[i]});
+    std::push_heap(out.largest.begin(), out.largest.end(), more);
+  }
+  std::sort(out.largest.begin(), out.largest.end(), [](const Reading& a, const Reading& b) { return a.row < b.row; });
+  return out;
 }
 
 std::vector<Studentised::Reading> Studentised::of_most_account(Eigen::Index column) const {
   std::vector<Reading> out;
-  for (std::size_t c = 0; c < parts_.size(); ++c) {
-    const double* const part = parts_[c].col(column).data();
-    for (Eigen::Index i = 0; i < parts_[c].rows(); ++i) {
-      if (part[i] > of_account * mean_[column]) out.push_back({c, i, part[i]});
+  for (std::size_t c = 0; c < shares_.size(); ++c) {
+    const Share& share = shares_[c][static_cast<std::size_t>(column)];
+    for (const Reading& r : directions_[c][share.direction].largest) {
+      const double part = share.square * r.part;
+      if (part > of_account * mean_[column]) out.push_back({c, r.row, part});
     }
   }
   std::stable_sort(out.begin(), out.end(), [](const Reading& a, const Reading& b) { return a.part > b.part; });

@@ -64,17 +64,32 @@ class Studentised {
     Eigen::Index row;
     double part;  ///< of the mean of V̂
   };
+  /// What estimates of one direction a = J `by` in a channel, or of its multiples, draw from the channel's readings.
+  struct Direction {
+    Eigen::VectorXd by;
+    double mean, squares;          ///< Σ x_i S_ii; Σ (x_i S_ii)²
+    std::vector<Reading> largest;  ///< x_i S_ii, by row
+  };
+  /// Of a parameter: the direction, and the square of the multiple.
+  struct Share {
+    std::size_t direction;
+    double square;
+  };
   void add(std::size_t channel, const Eigen::VectorXd& leverage);
+  [[nodiscard]] static Share share_of(const Eigen::VectorXd& by, const std::vector<Direction>& directions);
+  [[nodiscard]] Direction direction_of(std::size_t channel, const Eigen::VectorXd& by,
+                                       const Eigen::ArrayXd& factor) const;
   [[nodiscard]] std::vector<Reading> of_most_account(Eigen::Index column) const;
   [[nodiscard]] Eigen::MatrixXd form(Eigen::Index column, const std::vector<Reading>& readings) const;
 
   const JointJacobian& j_;
   const std::vector<Eigen::VectorXd>& variance_;
   const std::vector<Eigen::Index>& parameters_;
-  Eigen::MatrixXd meat_;                    ///< K
-  Eigen::VectorXd truth_, mean_, squares_;  ///< V; Σ x_i S_ii; Σ (x_i S_ii)²
-  std::vector<Eigen::ArrayXd> s_;           ///< [channel]: S_ii
-  std::vector<Eigen::ArrayXXd> parts_;      ///< [channel], readings x parameters asked for: x_i S_ii
+  Eigen::MatrixXd meat_;                            ///< K
+  Eigen::VectorXd truth_, mean_, squares_;          ///< V; Σ x_i S_ii; Σ (x_i S_ii)²
+  std::vector<Eigen::ArrayXd> s_;                   ///< [channel]: S_ii
+  std::vector<std::vector<Direction>> directions_;  ///< [channel]
+  std::vector<std::vector<Share>> shares_;          ///< [channel][parameter]
 };
 
 }  // namespace goniofit

@@ -115,6 +115,22 @@ bool SurfaceBasis::reads_length(const Pair& pair) const noexcept {
   return components_.has(Effect::coh) && in_mirror_cone(pair, solid_angle_sr_);
 }
 
+// Of Gaussian slopes: dd falls as exp(-tan²θ_b / 4m²), fs as exp(-tan²θ_f / 16m²), with sigma_e <= sigma. What stands
+// before these is below 10²⁰ in all of the domain of slopes.
+double SurfaceBasis::onset(const Pair& pair) const noexcept {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  constexpr double nil = 120.0;  // exp(-120) = 10⁻⁵²
+  if (!slope_ || !has_kernel(settings_) || facet_slope_ || components_.has(Effect::coh)) return -infinity;
+  double least = infinity;
+  if (dd_) least = pair.tan2_b / 4.0;
+  if (fs_ && pair.forward) {
+    const bool printed = settings_.forms.fs == FsForm::printed;
+    const double tan2 = printed ? pair.tan2_f : std::min(pair.tan2_f, pair.tan2_f_swapped);
+    least = std::min(least, tan2 / 16.0);
+  }
+  return 0.5 * std::log(least / nil);
+}
+
 template <class T>
 SurfaceParameters<T> SurfaceBasis::parameters(std::span<const double> z) const {
   const auto get = [&](const Index& index, double otherwise) {

@@ -23,6 +23,7 @@ class SurfaceBasis final : public Basis {
   [[nodiscard]] const std::vector<ShapeParameter>& shape_parameters() const noexcept override { return shape_; }
   [[nodiscard]] bool has_length() const noexcept override { return sigma_.has_value(); }
   [[nodiscard]] bool reads_length(const Pair& pair) const noexcept override;
+  [[nodiscard]] double onset(const Pair& pair) const noexcept override;
 
   void shape_factors(const Pair& pair, std::span<const double> z, double wavelength_um,
                      std::span<double> values) const override;

@@ -67,7 +67,8 @@ Pair make_pair(const AnglePair& a) noexcept {
   const double cos_half = rounded_cos_half - 0.5 * turn * rounded_sin_half;
   const double sin_half = rounded_sin_half + 0.5 * turn * rounded_cos_half;
   const double cos_mean = cos_half_sum(ti, tr);
-  const double half_difference = square(2.0 * sin_deg(0.5 * (ti - tr)));  // 4 sin²
+  const double sin_half_difference = sin_deg(0.5 * (ti - tr));
+  const double half_difference = square(2.0 * sin_half_difference);  // 4 sin²
 
   Pair p{};
   p.cos_i = cos_deg(ti);
@@ -85,7 +86,7 @@ Pair make_pair(const AnglePair& a) noexcept {
   p.one_minus_cos_h = difference2 / (4.0 * (1.0 + p.cos_h));
   p.tan2_b = p.s_h2 / square(p.s_z);
   // The mirror of L has the same theta: its distance to V is |s_h|² and the difference of the two heights.
-  const double height = 2.0 * sin_deg(0.5 * (ti + tr)) * sin_deg(0.5 * (tr - ti));  // cos_i - cos_r
+  const double height = -2.0 * sin_deg(0.5 * (ti + tr)) * sin_half_difference;  // cos_i - cos_r
   p.mirror_distance2 = p.s_h2 + square(height);
   p.forward = sin_r * cos_delta < 0.0;
   p.tan2_f = p.forward ? tan2_forward(sin_r, p.cos_r, cos_delta, sin_delta) : 0.0;
@@ -94,7 +95,7 @@ Pair make_pair(const AnglePair& a) noexcept {
   p.tan2_f_swapped = p.forward && sin_i > 0.0 ? tan2_forward(sin_i, p.cos_i, cos_delta, sin_delta) : 0.0;
   p.dot_h = sin_i * sin_r * cos_delta;
   // s_h along the azimuth of L and across it: sin_i + sin_r cos delta with the mirror side's cancellation taken out.
-  const double along = cos_delta < 0.0 ? 2.0 * sin_deg(0.5 * (ti - tr)) * cos_mean + 2.0 * sin_r * square(cos_half)
+  const double along = cos_delta < 0.0 ? 2.0 * sin_half_difference * cos_mean + 2.0 * sin_r * square(cos_half)
                                        : sin_i + sin_r * cos_delta;
   const double across = sin_r * sin_delta;
   const double cos_phi = cos_deg(a.phi_i_deg);

@@ -20,16 +20,17 @@ double quantile(std::vector<double>& values, double q) {
   return *at;
 }
 
-std::optional<RatioStatistics> reciprocity_of(const ScanChannel& channel, const std::vector<SwappedRows>& pairs) {
+std::optional<RatioStatistics> reciprocity_of(const ScanChannel& channel, const SwappedRows& pairs) {
   std::vector<double> ratios = swapped_ratios(channel.values, pairs);
   if (ratios.empty()) return std::nullopt;
   return RatioStatistics{quantile(ratios, 0.5), {quantile(ratios, 0.05), quantile(ratios, 0.95)}};
 }
 
-std::optional<double> repeat_spread_of(const ScanChannel& channel, const std::vector<Rows>& repeats) {
+std::optional<double> repeat_spread_of(const ScanChannel& channel, const RowGroups& repeats) {
   double squares = 0.0;
   std::size_t degrees_of_freedom = 0;
-  for (const Rows& group : repeats) {
+  for (std::size_t g = 0; g < repeats.size(); ++g) {
+    const std::span<const std::size_t> group = repeats[g];
     const double mean = mean_of(channel.values, group);
     if (!(mean > 0.0)) continue;
     for (const std::size_t row : group) squares += std::pow(channel.values[row] / mean - 1.0, 2);
@@ -48,8 +49,7 @@ std::optional<double> relative_u_of(const ScanChannel& channel) {
   return quantile(parts, 0.5);
 }
 
-ChannelStatistics channel_statistics(const ScanChannel& channel, const std::vector<SwappedRows>& pairs,
-                                     const std::vector<Rows>& repeats) {
+ChannelStatistics channel_statistics(const ScanChannel& channel, const SwappedRows& pairs, const RowGroups& repeats) {
   std::vector<double> values = channel.values;
   const auto [min, max] = std::minmax_element(values.begin(), values.end());
   ChannelStatistics out;
@@ -138,11 +138,11 @@ ScanStatistics scan_statistics(const Scan& scan) {
   out.azimuth_gap = azimuth_gap(scan);
   count_sides(scan, out);
 
-  const std::vector<Rows> repeats = repeated_rows(scan);
-  const std::vector<SwappedRows> pairs = swapped_rows(scan);
+  const RowGroups repeats = repeated_rows(scan);
+  const SwappedRows pairs = swapped_rows(scan);
   out.reciprocal_pairs = pairs.size();
   out.repeated_directions = repeats.size();
-  for (const Rows& group : repeats) out.repeated_readings += group.size();
+  out.repeated_readings = repeats.rows.size();
   for (const ScanChannel& channel : scan.channels) out.channels.push_back(channel_statistics(channel, pairs, repeats));
   return out;
 }

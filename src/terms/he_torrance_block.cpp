@@ -17,8 +17,9 @@ using namespace he_torrance;
 /// Dense loops run over whole strips, the widest vectors: no remainder in narrower ones.
 template <class Real>
 constexpr std::size_t strip = 64 / sizeof(Real);
-/// Fewer places than this are faster one by one than as a strip.
-constexpr std::size_t few = 2;
+/// So many places, or fewer, are faster one by one than as a strip.
+constexpr std::size_t few_of_polynomial = 1;
+constexpr std::size_t few_of_sum = 3;
 constexpr std::size_t capacity = he_torrance_block + strip<float>;
 
 template <class Real>
@@ -39,8 +40,8 @@ struct Places {
   alignas(64) Column<Real> r, x, variable, result;
 };
 
-/// The places of each region. The counters are fields of one register: in
-/// memory, each place would wait for the store of the one before.
+/// The places of each region. The counters are fields of one register: in memory, each place would wait for the store
+/// of the one before.
 struct Buckets {
   static constexpr int size = 7;
   static constexpr int bits = 9;  ///< of a counter: a block has 256 places
@@ -56,6 +57,12 @@ struct Buckets {
   }
   [[nodiscard]] [[gnu::always_inline]] static std::size_t counter(std::uint64_t counts, std::uint64_t bucket) {
     return (counts >> (bits * bucket)) & ((1U << bits) - 1);
+  }
+
+  [[gnu::always_inline]] void move(int from, int to) {
+    const std::uint64_t n = count(from);
+    std::copy_n(places(from), n, places(to) + count(to));
+    counts += (n << (bits * to)) - (n << (bits * from));
   }
 
   /// region[i] of place_at(i).
@@ -86,33 +93,25 @@ struct ShortSum {
     return c;
   }();
 
-  /// One strip.
-  template <class Real>
-  [[gnu::always_inline]] static void evaluate(const Real* r, const Real* xs, Real* result) {
-    constexpr std::size_t width = strip<Real>;
-    using Strip = std::array<double, width>;
-    alignas(64) std::array<Strip, n + 1> e;
-    alignas(64) Strip g;
-    alignas(64) Strip x;
-    alignas(64) Strip s;
-    for (std::size_t k = 0; k < width; ++k) {
-      x[k] = static_cast<double>(xs[k]);
-      g[k] = 1.0 / static_cast<double>(r[k]);
-      e[0][k] = exp(Lane<double>(x[k] * (-1.0 / n))).v;
-      e[n / 2][k] = e[0][k];
-      s[k] = coefficients[n];
-    }
-    for (std::size_t j = n - 1; j > 0; --j) {
-      if (j > n / 2) {
-        const double rate = 1.0 / static_cast<double>(n) - 1.0 / static_cast<double>(j);
-        for (std::size_t k = 0; k < width; ++k) e[j][k] = exp(Lane<double>(x[k] * rate)).v;
-      } else if (j < n / 2) {
-        for (std::size_t k = 0; k < width; ++k) e[j][k] = e[2 * j][k] * e[2 * j][k] * e[0][k];
-      }
-      for (std::size_t k = 0; k < width; ++k) s[k] = s[k] * g[k] + coefficients[j] * e[j][k];
-    }
-    for (std::size_t k = 0; k < width; ++k) {
-      result[k] = static_cast<Real>(log(Lane<double>(s[k])).v - g[k] - x[k] * (1.0 / n));
+  /// One lane.
+  [[nodiscard]] [[gnu::always_inline]] static double log_w_over_g(double r, double x) {
+    std::array<double, n + 1> e;
+    const double g = 1.0 / r;
+    e[n / 2] = exp(Lane<double>(x * (-1.0 / n))).v;
+    const double s = add<n - 1>(e, g, x, coefficients[n]);
+    return log(Lane<double>(s)).v - g - x * (1.0 / n);
+  }
+
+ private:
+  /// s g^j + the terms of j and below. A recursion, not a loop: the lanes are to be the innermost one.
+  template <std::size_t j>
+  [[nodiscard]] [[gnu::always_inline]] static double add(std::array<double, n + 1>& e, double g, double x, double s) {
+    if constexpr (j == 0) {
+      return s;
+    } else {
+      if constexpr (j > n / 2) e[j] = exp(Lane<double>(x * (1.0 / n - 1.0 / j))).v;
+      if constexpr (j < n / 2) e[j] = e[2 * j] * e[2 * j] * e[n / 2];
+      return add<j - 1>(e, g, x, s * g + coefficients[j] * e[j]);
     }
   }
 };
@@ -133,7 +132,14 @@ template <class Cell, class Real>
 
 template <std::size_t terms, class Real>
 [[gnu::always_inline]] inline void evaluate_sum(Places<Real>& p, std::size_t n) {
-  for (std::size_t i = 0; i < n; i += strip<Real>) ShortSum<terms>::evaluate(&p.r[i], &p.x[i], &p.result[i]);
+  const Real* const r = p.r.data();
+  const Real* const x = p.x.data();
+  Real* const result = p.result.data();
+  const std::size_t end = padded<Real>(n);
+#pragma GCC ivdep
+  for (std::size_t i = 0; i < end; ++i) {
+    result[i] = static_cast<Real>(ShortSum<terms>::log_w_over_g(static_cast<double>(r[i]), static_cast<double>(x[i])));
+  }
 }
 
 /// What the fine and the coarse tier differ in: regions and their expressions.
@@ -142,8 +148,10 @@ struct Fine {
   static constexpr int usual = fine::shallow_large;
   static constexpr int rest = fine::rest;
   static constexpr int scalar = fine::scalar;
+  static constexpr std::array<std::size_t, 3> terms{16, 32, 48};
   const FineCells& cells = FineCells::get();
 
+  [[gnu::always_inline]] static Real inverse(Real log_g) { return exp(Lane<Real>(-log_g)).v; }
   [[gnu::always_inline]] static RegionNumber<Real> region(Real r, Real x) { return fine_region(r, x); }
   [[gnu::always_inline]] static RegionNumber<Real> region_of_rest(Real r, Real x) { return fine_rest(r, x); }
   [[gnu::always_inline]] void evaluate_region(int region, Places<Real>& p, std::size_t n) const {
@@ -165,11 +173,11 @@ struct Fine {
   [[gnu::always_inline]] static void evaluate_rest(int region, Places<Real>& p, std::size_t n) {
     switch (region) {
       case fine::sum_16:
-        return evaluate_sum<16>(p, n);
+        return evaluate_sum<terms[0]>(p, n);
       case fine::sum_32:
-        return evaluate_sum<32>(p, n);
+        return evaluate_sum<terms[1]>(p, n);
       default:
-        return evaluate_sum<48>(p, n);
+        return evaluate_sum<terms[2]>(p, n);
     }
   }
 };
@@ -180,8 +188,18 @@ struct Coarse {
   static constexpr int usual = coarse::saddle;
   static constexpr int rest = coarse::rest;
   static constexpr int scalar = coarse::scalar;
+  static constexpr std::array<std::size_t, 3> terms{8, 16, 32};
   const CoarseCells<Real>& cells = CoarseCells<Real>::get();
 
+  /// Within 6e-9 of 1/g, Taylor's series to the seventh power: y G(xi) reaches 690.
+  [[gnu::always_inline]] static Real inverse(Real log_g) {
+    constexpr Real reach = std::is_same_v<Real, float> ? Real(80) : Real(700);
+    const auto [t, power] = lane::reduce(lane::at_most(reach, lane::at_least(-reach, -log_g)));
+    const Real t2 = t * t;
+    const Real low = (Real(1) + t) + t2 * (Real(1.0 / 2) + t * Real(1.0 / 6));
+    const Real high = (Real(1.0 / 24) + t * Real(1.0 / 120)) + t2 * (Real(1.0 / 720) + t * Real(1.0 / 5040));
+    return lane::scaled(low + t2 * t2 * high, power);
+  }
   [[gnu::always_inline]] static RegionNumber<Real> region(Real r, Real x) { return coarse_region(r, x); }
   [[gnu::always_inline]] static RegionNumber<Real> region_of_rest(Real r, Real x) { return coarse_rest(r, x); }
   [[gnu::always_inline]] void evaluate_region(int region, Places<Real>& p, std::size_t n) const {
@@ -195,11 +213,11 @@ struct Coarse {
   [[gnu::always_inline]] static void evaluate_rest(int region, Places<Real>& p, std::size_t n) {
     switch (region) {
       case coarse::sum_8:
-        return evaluate_sum<8>(p, n);
+        return evaluate_sum<terms[0]>(p, n);
       case coarse::sum_16:
-        return evaluate_sum<16>(p, n);
+        return evaluate_sum<terms[1]>(p, n);
       default:
-        return evaluate_sum<32>(p, n);
+        return evaluate_sum<terms[2]>(p, n);
     }
   }
 };
@@ -228,7 +246,7 @@ class Run {
       put_all();
     }
     for (int region = 0; region < Tier::rest; ++region) {
-      if (!one_by_one(region)) continue;
+      if (few(region, few_of_polynomial)) continue;
       const std::size_t n = gather(region);
       tier_.evaluate_region(region, some_, n);
       put(region, n, Real(-1));
@@ -246,10 +264,11 @@ class Run {
     Number* const region = region_.data();
 #pragma GCC ivdep
     for (std::size_t i = 0; i < n; ++i) {
-      rs[i] = exp(Lane<Real>(-log_g[i])).v;
+      rs[i] = Tier::inverse(log_g[i]);
       xs[i] = x[i];
-      region[i] = Tier::region(rs[i], x[i]);
     }
+#pragma GCC ivdep
+    for (std::size_t i = 0; i < n; ++i) region[i] = Tier::region(rs[i], xs[i]);
     for (std::size_t i = n; i < padded<Real>(n); ++i) {
       rs[i] = rs[0];
       xs[i] = xs[0];
@@ -289,8 +308,9 @@ class Run {
     std::copy_n(buckets_.places(Tier::rest), n, place_.data());
     const std::int32_t* const place = place_.data();
     buckets_.fill(region, n, [place](std::size_t i) { return place[i]; });
+    for (int sum = 0; sum + 1 < Tier::scalar; ++sum) merge(sum);
     for (int sum = 0; sum < Tier::scalar; ++sum) {
-      if (!one_by_one(sum)) continue;
+      if (few(sum, few_of_sum)) continue;
       const std::size_t count = gather(sum);
       tier_.evaluate_rest(sum, some_, count);
       put(sum, count, Real(1));
@@ -298,11 +318,21 @@ class Run {
     each(Tier::scalar);
   }
 
-  /// Does so and returns false where there are few in the bucket, or none.
-  [[nodiscard]] [[gnu::always_inline]] bool one_by_one(int bucket) {
-    if (buckets_.count(bucket) > few) return true;
+  /// A sum's places go to the next longer sum, which is right for them too, where that makes fewer strips of terms.
+  [[gnu::always_inline]] void merge(int sum) {
+    constexpr auto terms = Tier::terms;
+    const auto by = static_cast<std::size_t>(sum);
+    const std::size_t a = buckets_.count(sum);
+    const std::size_t b = buckets_.count(sum + 1);
+    const std::size_t apart = strips<Real>(a) * terms[by] + strips<Real>(b) * terms[by + 1];
+    if (strips<Real>(a + b) * terms[by + 1] < apart) buckets_.move(sum, sum + 1);
+  }
+
+  /// Whether there are at most `most` in a bucket, and done then.
+  [[nodiscard]] [[gnu::always_inline]] bool few(int bucket, std::size_t most) {
+    if (buckets_.count(bucket) > most) return false;
     each(bucket);
-    return false;
+    return true;
   }
   [[gnu::always_inline]] void each(int bucket) {
     const std::int32_t* const place = buckets_.places(bucket);
@@ -371,17 +401,27 @@ struct Block {
   [[gnu::always_inline]] static void run(const Arguments& a) { Run<Tier>(a.log_g, a.x, a.n, a.log_w)(); }
 };
 
+template <class Tier, class Real = typename Tier::Real>
+void run(const Real* log_g, const Real* x, std::size_t n, Real* log_w, InstructionSet instructions) {
+  const auto run_block = Vectorised<Block<Tier>>::of(instructions);
+  for (std::size_t i = 0; i < n; i += he_torrance_block) {
+    run_block({log_g + i, x + i, std::min(n - i, he_torrance_block), log_w + i});
+  }
+}
+
 }  // namespace
 
 void log_he_torrance_block(const double* log_g, const double* x, std::size_t n, double* log_w,
                            HeTorranceAccuracy accuracy, InstructionSet instructions) {
-  if (accuracy == HeTorranceAccuracy::fine) return Vectorised<Block<Fine>>::of(instructions)({log_g, x, n, log_w});
-  Vectorised<Block<Coarse<double>>>::of(instructions)({log_g, x, n, log_w});
+  if (accuracy == HeTorranceAccuracy::coarse) return run<Coarse<double>>(log_g, x, n, log_w, instructions);
+  if (instructions != InstructionSet::sse2) return run<Fine>(log_g, x, n, log_w, instructions);
+  // Two lanes without a fused multiply-add lose to the tables.
+  for (std::size_t i = 0; i < n; ++i) log_w[i] = log_w_of_one(log_g[i], x[i]);
 }
 
 void log_he_torrance_block(const float* log_g, const float* x, std::size_t n, float* log_w,
                            InstructionSet instructions) {
-  Vectorised<Block<Coarse<float>>>::of(instructions)({log_g, x, n, log_w});
+  run<Coarse<float>>(log_g, x, n, log_w, instructions);
 }
 
 }  // namespace goniofit

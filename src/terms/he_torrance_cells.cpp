@@ -6,52 +6,14 @@
 #include <numbers>
 #include <vector>
 
+#include "terms/chebyshev_fit.h"
 #include "terms/he_torrance.h"
 #include "terms/he_torrance_regions.h"
 
 namespace goniofit::he_torrance {
 namespace {
 
-/// T_0 ... T_(n-1) at t.
-std::vector<double> chebyshev_values(std::size_t n, double t) {
-  std::vector<double> v(std::max<std::size_t>(n, 2), 1.0);
-  v[1] = t;
-  for (std::size_t i = 2; i < n; ++i) v[i] = 2.0 * t * v[i - 1] - v[i - 2];
-  return v;
-}
-
-/// Row i: the coefficients of T_i by ascending power.
-std::vector<std::vector<double>> chebyshev_powers(std::size_t n) {
-  std::vector<std::vector<double>> m(std::max<std::size_t>(n, 2), std::vector<double>(n + 1, 0.0));
-  m[0][0] = 1.0;
-  m[1][1] = 1.0;
-  for (std::size_t i = 2; i < n; ++i) {
-    for (std::size_t k = 0; k < n; ++k) m[i][k] = (k > 0 ? 2.0 * m[i - 1][k - 1] : 0.0) - m[i - 2][k];
-  }
-  return m;
-}
-
-double node(std::size_t i, std::size_t n) {
-  return std::cos(std::numbers::pi * (static_cast<double>(i) + 0.5) / static_cast<double>(n));
-}
-
-/// Chebyshev interpolation of f(t) on [-1, 1], by powers of t.
-template <std::size_t n, class F>
-std::array<double, n> fit_line(const F& f) {
-  const auto powers = chebyshev_powers(n);
-  std::array<double, n> c{};
-  std::vector<double> series(n, 0.0);
-  for (std::size_t i = 0; i < n; ++i) {
-    const double t = node(i, n);
-    const double value = f(t) * 2.0 / static_cast<double>(n);
-    const std::vector<double> basis = chebyshev_values(n, t);
-    for (std::size_t k = 0; k < n; ++k) series[k] += value * basis[k] * (k > 0 ? 1.0 : 0.5);
-  }
-  for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t k = 0; k <= i; ++k) c[k] += series[i] * powers[i][k];
-  }
-  return c;
-}
+using namespace chebyshev;
 
 struct Sample {
   double a, l, value;
@@ -123,7 +85,7 @@ std::array<double, S::size> fit_region(const PlaceAt& place_at, const Contains& 
   constexpr int steps = 200;
   std::vector<Sample> samples;
   for (std::size_t k = 0; k < nl; ++k) {
-    const double l = node(k, nl);
+    const double l = place(k, nl);
     double low = 1.0;
     double high = -1.0;
     for (int i = 1; i <= steps; ++i) {
@@ -133,7 +95,7 @@ std::array<double, S::size> fit_region(const PlaceAt& place_at, const Contains& 
       high = a;
     }
     for (std::size_t i = 0; i < na && low < high; ++i) {
-      const double a = low + 0.5 * (1.0 + node(i, na)) * (high - low);
+      const double a = low + 0.5 * (1.0 + place(i, na)) * (high - low);
       const Place p = place_at(a, l);
       samples.push_back({a, l, f(p.r, p.x)});
     }

@@ -202,7 +202,7 @@ TEST_P(EveryInstructionSet, ToleranceHolds) {
 }
 
 // A value does not depend on where in a batch its pair stands: whole vectors and what is left over are the same
-// arithmetic.
+// arithmetic. (W takes one or the other way by how many of a block go there, to the same 1e-9.)
 TEST_P(EveryInstructionSet, PlaceInTheBatchDoesNotMatter) {
   test::Draw draw(3);
   const Batch batch = corners(draw, 600);
@@ -218,7 +218,10 @@ TEST_P(EveryInstructionSet, PlaceInTheBatchDoesNotMatter) {
       for (std::size_t i = first; i < 600; ++i) rows.push_back(i);
       std::vector<double> part(rows.size());
       compiled.values(batch.pairs.subset(rows), part);
-      for (std::size_t i = 0; i < rows.size(); ++i) EXPECT_EQ(part[i], all[rows[i]]) << first << " " << i;
+      for (std::size_t i = 0; i < rows.size(); ++i) {
+        const double whole = all[rows[i]];
+        EXPECT_NEAR(part[i], whole, is_wave(m) ? 2e-9 * whole : 0.0) << first << " " << i;
+      }
     }
   }
 }

@@ -10,6 +10,7 @@
 #include "fit/loss.h"
 #include "fit/polish.h"
 #include "geometry/angles.h"
+#include "scan/arrangement.h"
 #include "support/error.h"
 #include "support/materials.h"
 #include "synthetic/simulate.h"
@@ -72,10 +73,28 @@ TEST_P(EveryLoss, IsTheOneThatItsNameSays) {
   EXPECT_EQ(r.objective.loss, GetParam());
 }
 
+// One reading in five, but all within 12° of the mirror direction: bent losses and kernels take their time with
+// thousands, which without noise tell no more.
+Scan thinned(const Scan& scan) {
+  Scan out = scan;
+  for (auto* angles : {&out.theta_i_deg, &out.phi_i_deg, &out.theta_r_deg, &out.phi_r_deg}) angles->clear();
+  for (ScanChannel& c : out.channels) c.values.clear();
+  for (std::size_t i = 0; i < scan.size(); ++i) {
+    const AnglePair a = scan.angles(i);
+    if (i % 5 != 0 && from_mirror_deg(make_pair(a)) > 12.0) continue;
+    out.theta_i_deg.push_back(a.theta_i_deg);
+    out.phi_i_deg.push_back(a.phi_i_deg);
+    out.theta_r_deg.push_back(a.theta_r_deg);
+    out.phi_r_deg.push_back(a.phi_r_deg);
+    for (std::size_t c = 0; c < scan.channels.size(); ++c) out.channels[c].values.push_back(scan.channels[c].values[i]);
+  }
+  return out;
+}
+
 TEST_P(EveryLoss, ReturnsToTheTruthWithoutNoise) {
   for (const Sampling sampling : {Sampling::hemisphere, Sampling::incidence_plane}) {
     for (const Material& truth : {test::garnet_red_paint_13(), test::ground_glass_41(), test::smooth_aluminium_45()}) {
-      Scan scan = simulate(truth, sampling, {0.0, 0.0}, 1);
+      Scan scan = thinned(simulate(truth, sampling, {0.0, 0.0}, 1));
       for (ScanChannel& c : scan.channels) {
         for (const double f : c.values) c.u.push_back(0.01 * f + 1e-6);
       }

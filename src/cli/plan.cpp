@@ -30,7 +30,7 @@ struct Options {
   std::optional<double> max_theta, solid_angle;
   std::optional<std::string> theta_i, wavelengths;
   std::uint64_t seed = 1;
-  bool json = false, quick = false, quiet = false;
+  bool json = false, rms = false, quick = false, quiet = false;
 };
 
 // The scan's domain, else the default one; each flag replaces its part.
@@ -67,6 +67,7 @@ int run(const Options& options) {
   const Material material = read_material(options.material);
   const Domain domain = domain_of(options);
   PlanSettings settings = options.quick ? PlanSettings::quick() : PlanSettings{};
+  settings.bound_rms = options.rms;
   settings.compile.tolerance = options.terms_to;
   settings.seed = settings.timing.seed = options.seed;
   const Plan planned = [&] {
@@ -105,6 +106,7 @@ void add_plan(CLI::App& program, int& status) {
                    "relative error that terms are compiled to where the plan will be used (0, or 1e-9 and more)")
       ->type_name("E");
   command->add_option("--seed", options->seed, "of the directions")->type_name("INTEGER")->capture_default_str();
+  command->add_flag("--rms", options->rms, "hold the RMS relative error to the tolerance too: dark directions count");
   command->add_flag("--quick", options->quick, "few rounds and directions: for trying out");
   command->add_flag("--json", options->json, "the plan as JSON");
   command->add_flag("-q,--quiet", options->quiet, "no progress on standard error");

@@ -25,13 +25,13 @@ constexpr double even_time = 0.02;
 // Measured again with all rounds: who may still be the fastest.
 constexpr double finalist_time = 1.15;
 
-std::vector<Feasible> within_tolerance(PlanSearch& search, double tolerance, std::size_t& searched) {
+std::vector<Feasible> within_tolerance(PlanSearch& search, double tolerance, bool bound_rms, std::size_t& searched) {
   std::vector<Feasible> feasible;
   const std::vector<PlanChoice> all = search.all();
   searched = all.size();
   for (const PlanChoice& choice : all) {
     const ModelError e = search.error(choice);
-    if (e.worst_l1_bound <= tolerance) feasible.push_back({choice, e});
+    if (e.worst_l1_bound <= tolerance && (!bound_rms || e.rms_relative <= tolerance)) feasible.push_back({choice, e});
   }
   return feasible;
 }
@@ -175,9 +175,10 @@ Plan plan(const Material& material, const Domain& domain, double tolerance, cons
   Plan p;
   p.domain = domain;
   p.tolerance = tolerance;
+  p.bound_rms = settings.bound_rms;
   p.reference = std::move(reference.name);
   tell("errors of all combinations");
-  const std::vector<Feasible> feasible = within_tolerance(search, tolerance, p.searched);
+  const std::vector<Feasible> feasible = within_tolerance(search, tolerance, settings.bound_rms, p.searched);
   if (feasible.empty()) {
     throw Error(ErrorKind::failed_result, "nothing stays within " + shortest(tolerance) + ": terms compiled to " +
                                               shortest(settings.compile.tolerance) + " are too coarse for it");

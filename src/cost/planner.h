@@ -36,7 +36,8 @@ struct Plan {
   Material material;  ///< to be used instead: fewer effects, other tiers; no fit summary
   Domain domain;
   double tolerance = 0.0;
-  std::string reference;  ///< what errors are against
+  bool bound_rms = false;  ///< so is the RMS relative error
+  std::string reference;   ///< what errors are against
   std::vector<PlanLine> lines;
   ModelError error;         ///< of the plan; worst_l1_bound is at most the tolerance
   ModelError error_before;  ///< of the material as it was given
@@ -54,6 +55,8 @@ struct PlanSettings {
   /// How the caller compiles what is planned: it decides what a term costs, and its tolerance is part of the error.
   CompileSettings compile{};
   std::uint64_t seed = 1;
+  /// Bound the RMS relative error as well: dark directions then count as bright ones do.
+  bool bound_rms = false;
   /// Few repetitions and directions: for trying out.
   [[nodiscard]] static PlanSettings quick();
 };
@@ -62,9 +65,9 @@ struct PlanSettings {
 using PlanProgress = std::function<void(const std::string& what)>;
 
 /// The tolerance bounds the l1 error (model_error.h) of every incidence angle and channel of the domain, three standard
-/// errors of its estimate included; the relative errors are stated beside it. Throws Error (bad_input) for a tolerance
-/// outside (0, 1), an invalid material or domain, a peer, wavelengths that no channel has, and a material of which no
-/// effect acts.
+/// errors of its estimate included; the relative errors are stated beside it, and the RMS one is bounded on request.
+/// Throws Error (bad_input) for a tolerance outside (0, 1), an invalid material or domain, a peer, wavelengths that no
+/// channel has, and a material of which no effect acts.
 [[nodiscard]] Plan plan(const Material& material, const Domain& domain, double tolerance,
                         const PlanSettings& settings = {}, const PlanProgress& progress = {});
 

@@ -1,7 +1,6 @@
 #include "cost/tradeoff.h"
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <memory>
 #include <span>

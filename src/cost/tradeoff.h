@@ -20,15 +20,19 @@
 
 namespace goniofit {
 
+/// `model`: whole models; peers are fitted to the reference first. The four terms: its tiers, with the error of the
+/// term by itself and the time of dd with it, all else as published; of the distribution the error of dd against the
+/// series. `oren_nayar`: the three forms of the rough effect against the integral. `effects`: their subsets against all
+/// of them, terms as published. `fit`: what fitting with these terms gives, in time, loss and slope.
 enum class TradeoffGroup : std::uint8_t {
-  model,                ///< whole models; peers are fitted to the reference first
-  fresnel,              ///< tiers of one term: `error` of the term alone, `time` of dd with it, all else as published
-  shadowing,            ///<
-  effective_roughness,  ///<
-  distribution,         ///< the same, with the error of dd against its own series
-  oren_nayar,           ///< the three forms of the rough effect against the integral
-  effects,              ///< subsets of the effects against all of them, terms as published
-  fit                   ///< what fitting with these terms gives: time, loss, slope
+  model,
+  fresnel,
+  shadowing,
+  effective_roughness,
+  distribution,
+  oren_nayar,
+  effects,
+  fit
 };
 inline constexpr std::array all_tradeoff_groups{TradeoffGroup::model,        TradeoffGroup::fresnel,
                                                 TradeoffGroup::shadowing,    TradeoffGroup::effective_roughness,

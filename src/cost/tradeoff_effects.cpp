@@ -6,7 +6,6 @@
 #include "brdf/paper_samples.h"
 #include "cost/plan_search.h"
 #include "cost/tradeoff_parts.h"
-#include "geometry/angles.h"
 
 namespace goniofit::tradeoff {
 

@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "brdf/named_terms.h"
 #include "cost/tradeoff_parts.h"
 #include "fit/fit.h"
+#include "geometry/angles.h"
 #include "synthetic/simulate.h"
 
 namespace goniofit::tradeoff {
@@ -38,6 +38,29 @@ std::vector<TierSet> tier_sets(const Material& m, const Terms& exact) {
   return sets;
 }
 
+// The paper's sampling: its 441 directions, and the mirror directions for coh alone, whose only readings they are.
+// (Towards grazing He's lobe narrows to a spike there, which would outweigh all else.)
+Scan scan_of(const Material& reference, std::uint64_t seed) {
+  Scan scan = simulate(reference, Sampling::hemisphere, {}, seed);
+  if (reference.components.has(Effect::coh)) return scan;
+  Scan kept = scan;
+  for (std::vector<double>* angles : {&kept.theta_i_deg, &kept.phi_i_deg, &kept.theta_r_deg, &kept.phi_r_deg}) {
+    angles->clear();
+  }
+  for (ScanChannel& c : kept.channels) c.values.clear();
+  for (std::size_t row = 0; row < scan.size(); ++row) {
+    const AnglePair a = scan.angles(row);
+    if (a.theta_r_deg == a.theta_i_deg && std::fabs(wrap_deg(a.phi_r_deg - a.phi_i_deg)) == 180.0) continue;
+    kept.theta_i_deg.push_back(a.theta_i_deg);
+    kept.phi_i_deg.push_back(a.phi_i_deg);
+    kept.theta_r_deg.push_back(a.theta_r_deg);
+    kept.phi_r_deg.push_back(a.phi_r_deg);
+    for (std::size_t c = 0; c < kept.channels.size(); ++c)
+      kept.channels[c].values.push_back(scan.channels[c].values[row]);
+  }
+  return kept;
+}
+
 FitSettings settings_for(const Material& m, const Terms& terms) {
   FitSettings settings;
   settings.components = acting_effects(m);
@@ -64,7 +87,7 @@ FitFigures figures_of(const FitResult& fit, const Timing& time, double truth) {
 Rows fit_rows(const Material& material, const TradeoffSettings& s, const Note& note) {
   if (!acting_effects(material).has(Effect::dd)) return {};  // no lobe, no slope
   const Reference reference = reference_of(material, WaveOptics::fast);
-  const Scan scan = simulate(reference.material, Sampling::hemisphere, {}, s.seed);
+  const Scan scan = scan_of(reference.material, s.seed);
   Table table{.group = TradeoffGroup::fit, .material = material.name, .reference = reference.name};
   std::vector<FitResult> fits;
   std::vector<TimedTask> tasks;

@@ -9,6 +9,7 @@
 
 #include "report/comparison_criteria_report.h"
 #include "report/fit_rows.h"
+#include "report/material_json.h"
 #include "report/number_text.h"
 #include "report/text_table.h"
 
@@ -50,10 +51,7 @@ Json value_or_null(const std::optional<double>& value) { return value ? finite_o
 
 Json terms_json(const Material& material) {
   if (material.model != surface_model) return {{"fresnel", name_of(material.terms.fresnel)}};
-  return {{"fresnel", name_of(material.terms.fresnel)},
-          {"shadowing", name_of(material.terms.shadowing)},
-          {"effective_roughness", name_of(material.terms.effective_roughness)},
-          {"distribution", name_of(material.terms.distribution)}};
+  return terms_json(material.terms);
 }
 
 Json criteria_json(const SelectionRow& r) {

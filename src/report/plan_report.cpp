@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "cost/tradeoff.h"
+#include "report/fit_rows.h"
+#include "report/material_json.h"
 #include "report/number_text.h"
 #include "report/text_table.h"
 
@@ -29,18 +31,15 @@ std::string domain_text(const Domain& d) {
   return text;
 }
 
-// "12 % faster", "1.3 times slower": of a time against the plan's.
+// Of a time over the plan's.
 std::string against(double ratio) {
-  if (std::fabs(ratio - 1.0) < 0.01) return "as fast";
-  return ratio > 1.0 ? fmt::format("{:.2f} times faster", ratio) : fmt::format("{:.2f} times slower", 1.0 / ratio);
+  if (std::fabs(ratio - 1.0) < 0.01) return "as fast as";
+  return ratio > 1.0 ? fmt::format("{:.2f} times faster than", ratio)
+                     : fmt::format("{:.2f} times slower than", 1.0 / ratio);
 }
 
-Json terms_json(const Terms& t) {
-  return {{"fresnel", name_of(t.fresnel)},
-          {"shadowing", name_of(t.shadowing)},
-          {"effective_roughness", name_of(t.effective_roughness)},
-          {"distribution", name_of(t.distribution)}};
-}
+// Sums over effects and the whole differ by round-off.
+std::string error_text(double e) { return e < 1e-12 ? "0 %" : percent_text(e); }
 
 Json domain_json(const Domain& d) {
   return {{"theta_i_deg", {d.theta_i_min_deg, d.theta_i_max_deg}},
@@ -59,42 +58,36 @@ Json line_json(const PlanLine& line) {
           {"text", line.text()}};
 }
 
-Json components_json(EffectSet effects) {
-  Json names = Json::array();
-  for (const Effect e : all_effects) {
-    if (effects.has(e)) names.push_back(name_of(e));
-  }
-  return names;
-}
-
 }  // namespace
 
 std::string plan_text(const Plan& p, const ReportStyle& style) {
   std::string out = tinted(printable(p.material.name), Tint::bold, style.color) + ": " +
                     effects_text(p.material.components) + "; " + terms_text(p.material.terms) + "\n";
-  out += fmt::format("within {} on {}: L1 error of every incidence and channel, against {}\n\n",
-                     percent_text(p.tolerance), domain_text(p.domain), printable(p.reference));
+  out += fmt::format("within {} on {}: L1 error of every incidence and channel{}, against {}\n\n",
+                     percent_text(p.tolerance), domain_text(p.domain), p.bound_rms ? ", RMS relative error of all" : "",
+                     printable(p.reference));
   for (const PlanLine& line : p.lines) {
     out += "  " + tinted(line.text(), line.simplified ? Tint::good : Tint::none, style.color) + "\n";
   }
-  out +=
-      fmt::format("\nerror: L1 {}, at most {} at {:.3g}°; RMS relative {}, largest {}; as given: L1 {}, at most {}\n",
-                  percent_text(p.error.l1), percent_text(p.error.worst_l1), p.error.worst_theta_i_deg,
-                  percent_text(p.error.rms_relative), percent_text(p.error.max_relative),
-                  percent_text(p.error_before.l1), percent_text(p.error_before.worst_l1));
-  out += fmt::format("time: {:.3g} ns an evaluation; as given {:.3g} ns, {}; reference {:.3g} ns, {}\n", p.ns,
-                     p.ns_before, against(p.ratio_before), p.ns_reference, against(p.ratio_reference));
+  out += fmt::format("\nerror: L1 {}, at most {} at {:.3g}°; RMS relative {}, largest {}\n", error_text(p.error.l1),
+                     error_text(p.error.worst_l1), p.error.worst_theta_i_deg, error_text(p.error.rms_relative),
+                     error_text(p.error.max_relative));
+  out += fmt::format("       of the material as given: L1 {}, at most {} at {:.3g}°\n", error_text(p.error_before.l1),
+                     error_text(p.error_before.worst_l1), p.error_before.worst_theta_i_deg);
+  out += fmt::format("time:  {:.3g} ns an evaluation, {} as given ({:.3g} ns), {} the reference ({:.3g} ns)\n", p.ns,
+                     against(p.ratio_before), p.ns_before, against(p.ratio_reference), p.ns_reference);
   out += fmt::format("{} combinations, {} within the tolerance, {} of them timed\n", p.searched, p.within, p.timed);
   return out;
 }
 
 std::string plan_json(const Plan& p) {
   Json out{{"material", p.material.name},
-           {"components", components_json(p.material.components)},
+           {"components", effect_names(p.material.components)},
            {"terms", terms_json(p.material.terms)},
            {"forms", {{"fs", name_of(p.material.forms.fs)}, {"rough", name_of(p.material.forms.rough)}}},
            {"reference", p.reference},
            {"tolerance", p.tolerance},
+           {"bound_rms", p.bound_rms},
            {"domain", domain_json(p.domain)},
            {"l1_error", p.error.l1},
            {"worst_l1_error", p.error.worst_l1},

@@ -1,29 +1,13 @@
-#include <cmath>
-
 #include <nlohmann/json.hpp>
 
+#include "report/fit_rows.h"
+#include "report/material_json.h"
 #include "report/tradeoff_report.h"
 
 namespace goniofit {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json terms_json(const std::optional<Terms>& terms) {
-  if (!terms) return nullptr;
-  return {{"fresnel", name_of(terms->fresnel)},
-          {"shadowing", name_of(terms->shadowing)},
-          {"effective_roughness", name_of(terms->effective_roughness)},
-          {"distribution", name_of(terms->distribution)}};
-}
-
-Json effects_json(EffectSet effects) {
-  Json names = Json::array();
-  for (const Effect e : all_effects) {
-    if (effects.has(e)) names.push_back(name_of(e));
-  }
-  return names;
-}
 
 void add_term(Json& out, const TermFigures& t) {
   out["mean_absolute_error"] = t.error.mean_absolute;
@@ -46,8 +30,8 @@ void add_fit(Json& out, const FitFigures& f) {
 Json row_json(const TradeoffRow& r, InstructionSet instructions) {
   Json out{{"name", r.name},
            {"group", name_of(r.group)},
-           {"terms", terms_json(r.terms)},
-           {"effects", effects_json(r.effects)},
+           {"terms", r.terms ? terms_json(*r.terms) : Json(nullptr)},
+           {"effects", effect_names(r.effects)},
            {"material", r.material},
            {"model", r.model},
            {"arithmetic", r.arithmetic},

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
@@ -21,7 +22,7 @@ namespace {
 using Rows = std::vector<const TradeoffRow*>;
 
 constexpr double least_error = 1e-8;  // what is below stands on the axis
-constexpr double label_pixels = 11.0, pixels_per_letter = 0.56 * label_pixels;
+constexpr double label_pixels = 11.0;
 constexpr const char* front_color = "#0072B2";
 constexpr const char* other_color = "#707070";
 
@@ -85,7 +86,15 @@ struct Axes {
   }
 };
 
-std::string text_of(const TradeoffRow& row) { return row.name; }
+// Of a sans-serif font, in parts of its size; a little too wide rather than too narrow.
+double label_width(const std::string& text) {
+  double width = 0.0;
+  for (const char c : text) {
+    const std::string_view narrow = "filrtj1,.- ";
+    width += c == 'm' || c == 'w' ? 1.0 : narrow.find(c) != std::string_view::npos ? 0.42 : 0.66;
+  }
+  return label_pixels * width;
+}
 
 // The line through the front as small boxes along it.
 std::vector<LabelBox> line_boxes(const Rows& rows, const Axes& axes) {
@@ -108,8 +117,8 @@ std::vector<LabelBox> line_boxes(const Rows& rows, const Axes& axes) {
 std::string labels(const Rows& rows, const Axes& axes, const PlotPage& page) {
   std::vector<LabelledPoint> points;
   for (const TradeoffRow* row : rows) {
-    points.push_back({axes.x(row->time.median_ns), axes.y(error_of(*row)),
-                      pixels_per_letter * static_cast<double>(text_of(*row).size()), 1.15 * label_pixels});
+    points.push_back(
+        {axes.x(row->time.median_ns), axes.y(error_of(*row)), label_width(row->name), 1.15 * label_pixels});
   }
   const std::vector<std::optional<PlacedLabel>> placed =
       place_labels(points, {2.0, 2.0, axes.width - 2.0, axes.height - 2.0}, line_boxes(rows, axes));
@@ -122,7 +131,7 @@ std::string labels(const Rows& rows, const Axes& axes, const PlotPage& page) {
     const LabelBox& b = placed[i]->box;
     const char* const color = rows[i]->pareto ? front_color : "#404040";
     out += fmt::format("set label {} {} at {} center noenhanced font '{}' textcolor rgb '{}'\n", 100 + i,
-                       gnuplot_quoted(text_of(*rows[i])), graph(0.5 * (b.left + b.right), 0.5 * (b.top + b.bottom)),
+                       gnuplot_quoted(rows[i]->name), graph(0.5 * (b.left + b.right), 0.5 * (b.top + b.bottom)),
                        page.font(label_pixels), color);
     if (!placed[i]->led) continue;
     const double x = std::clamp(points[i].x, b.left, b.right);

@@ -81,6 +81,17 @@ TEST(Planner, SavesTimeWhereThereIsSomeToSave) {
   EXPECT_GT(p.timed, 0U);
 }
 
+TEST(Planner, DarkDirectionsCountOnRequest) {
+  PlanSettings settings = quick;
+  const Domain d{.theta_i_max_deg = 60.0, .theta_r_max_deg = 70.0};
+  const Plan bright = plan(laser_paper_73(), d, 0.03, settings);
+  settings.bound_rms = true;
+  const Plan dark = plan(laser_paper_73(), d, 0.03, settings);
+  EXPECT_LE(dark.error.rms_relative, 0.03);
+  EXPECT_LE(dark.error.worst_l1_bound, 0.03);
+  EXPECT_LE(dark.within, bright.within) << "one more bound";
+}
+
 TEST(Planner, NearTheNormalNothingIsShadowed) {
   const Domain steep{.theta_i_max_deg = 20.0, .theta_r_max_deg = 30.0};
   const Plan p = plan(garnet_red_paint_13(), steep, 0.01, quick);

@@ -33,6 +33,18 @@ template <class Real>
                                                          InstructionSet);
 [[nodiscard]] Fields fields_of(bool shadowed, ShadowingTier, EffectiveRoughnessTier);
 
+/// d ln S and d growth by ln slope, beside all that the loop above computes. Tiers li-torrance and none only.
+struct Rates {
+  alignas(64) Array<double> shadowing;
+  alignas(64) Array<double> growth;
+};
+struct VisibilityRateArguments {
+  VisibilityArguments<double> values;  ///< unit_shadowing_from is not read
+  Rates* rates;
+};
+[[nodiscard]] Loop<VisibilityRateArguments> visibility_rates(bool shadowed, ShadowingTier, EffectiveRoughnessTier,
+                                                             InstructionSet);
+
 /// A polynomial of a cosine, or of what a term is a smooth function of, in t = scale x + offset.
 inline constexpr std::size_t most_coefficients = 44;
 template <class Real>
@@ -74,6 +86,15 @@ template <class Real>
 [[nodiscard]] Loop<LobeArguments<Real>> directional_diffuse(DistributionTier, bool grows, InstructionSet);
 template <class Real>
 [[nodiscard]] Loop<LobeArguments<Real>> forward_scattering(FsForm, bool grows, InstructionSet);
+
+/// Their derivatives by ln slope, of tier rough-limit, from their values.
+struct LobeRateArguments {
+  LobeArguments<double> values;
+  const Rates* rates;
+  double* rate;  ///< whole vectors are written
+};
+[[nodiscard]] Loop<LobeRateArguments> directional_diffuse_rate(bool grows, InstructionSet);
+[[nodiscard]] Loop<LobeRateArguments> forward_scattering_rate(FsForm, bool grows, InstructionSet);
 
 /// What W reads of a pair, log_g and x; and dd from log_w.
 template <class Real>

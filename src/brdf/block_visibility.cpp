@@ -1,33 +1,14 @@
 #include <utility>
 
 #include "brdf/block_loops.h"
+#include "brdf/published_visibility.h"
 #include "support/vectorised.h"
-#include "terms/lane_math.h"
 
 namespace goniofit::block {
 
 namespace {
 
-/// Of one direction, tier li-torrance: S1 = 1 - (1-c)^q and what sigma_e reads, 1 - (1-c)^(1.6 q) and its remainder.
-template <class T>
-struct Published {
-  T lit, seen, hidden;
-};
-// Both powers are of w = (1-c)^(q/5): one exponential, and 1 - w⁵ and 1 - w⁸ are multiples of 1 - w.
-template <class T>
-[[gnu::always_inline]] inline Published<T> published(T inverse_slope, T log_one_minus_cos) {
-  // Beyond this S1 and 1 - w⁸ are 1 to the last digit, while squares of w⁸ would be denormal numbers.
-  const double most = std::numeric_limits<T>::digits <= 24 ? 0.99 : 0.9998;
-  const T full = -expm1(T(0.2 * inverse_slope * log_one_minus_cos));
-  const T rise = select(full < most, full, T(most));
-  const T w = 1.0 - rise;
-  const T w2 = w * w;
-  const T w4 = w2 * w2;
-  const T both = rise * (1.0 + w) * (1.0 + w2);  // 1 - w⁴
-  return {both + rise * w4, both * (1.0 + w4), w4 * w4};
-}
-
-// Its square is nothing beside 1, and no product of it is a denormal number.
+/// Its square is nothing beside 1, and no product of it is a denormal number.
 template <class Real>
 constexpr double negligible_depth = std::is_same_v<Real, float> ? 1e-6 : 1e-10;
 
@@ -83,8 +64,7 @@ struct Visibility {
       if constexpr (roughness == EffectiveRoughnessTier::none) continue;
       T up = 0.0;
       if constexpr (published_roughness) {
-        const T rest = i.hidden + r.hidden * (1.0 - i.hidden);
-        up = -0.2 * q * T(lane::log((i.seen * r.seen).v, -rest.v));
+        up = published_growth(q, i, r);
       } else {
         BasicPair<T> p{};
         p.cos_i = cos_i[k];

@@ -1,7 +1,6 @@
 #pragma once
 // The shape factors of the surface family at one pair of directions, for every tier, form and isotropy. Templates on
-// the scalar T of the shape parameters, G of the geometry, and on a floor for exponents (scalar.h): with settings known
-// at compile time these same functions are the body of the vectorised kernels.
+// the scalar T of the shape parameters and G of the geometry.
 
 #include <cmath>
 
@@ -65,13 +64,13 @@ template <class T, class G>
 }
 
 /// S1(c)/c of a tier at the slope that the direction meets.
-template <class T, class G, class Floor = math::NoFloor>
+template <class T, class G>
 [[nodiscard]] [[gnu::always_inline]] inline T shadowing_over_cosine(const ShapeSettings& settings, const T& slope,
                                                                     const T& tail, const G& cos, const G& one_minus_cos,
-                                                                    const G& log_one_minus_cos, Floor floor = {}) {
+                                                                    const G& log_one_minus_cos) {
   switch (settings.shadowing) {
     case ShadowingTier::li_torrance:
-      return shadowing_li_torrance(T(1.0 / slope), log_one_minus_cos, floor) / cos;
+      return shadowing_li_torrance(T(1.0 / slope), log_one_minus_cos) / cos;
     case ShadowingTier::smith:
       if (settings.distribution == DistributionTier::student_t) {
         return shadowing_student_t_over_cosine(slope, tail, cos, sine(cos, one_minus_cos));
@@ -85,14 +84,13 @@ template <class T, class G, class Floor = math::NoFloor>
   return T(1.0 / cos);
 }
 
-template <class T, class G, class Floor = math::NoFloor>
+template <class T, class G>
 [[nodiscard]] [[gnu::always_inline]] inline T log_height_ratio(EffectiveRoughnessTier tier, const T& slope_i,
-                                                               const T& slope_r, const BasicPair<G>& p,
-                                                               Floor floor = {}) {
+                                                               const T& slope_r, const BasicPair<G>& p) {
   switch (tier) {
     case EffectiveRoughnessTier::li_torrance:
-      return log_visible_part(T(1.0 / slope_i), p.log_one_minus_cos_i, floor) +
-             log_visible_part(T(1.0 / slope_r), p.log_one_minus_cos_r, floor);
+      return log_visible_part(T(1.0 / slope_i), p.log_one_minus_cos_i) +
+             log_visible_part(T(1.0 / slope_r), p.log_one_minus_cos_r);
     case EffectiveRoughnessTier::he:
       return log_effective_roughness_he(slope_i, slope_r, p);
     case EffectiveRoughnessTier::none:
@@ -101,16 +99,15 @@ template <class T, class G, class Floor = math::NoFloor>
   return T(0.0);
 }
 
-template <class T, class G, class Floor = math::NoFloor>
+template <class T, class G>
 [[nodiscard]] [[gnu::always_inline]] inline SurfaceTerms<T> surface_terms(const ShapeSettings& settings,
                                                                           const SurfaceParameters<T>& s,
-                                                                          const BasicPair<G>& p, Floor floor = {}) {
+                                                                          const BasicPair<G>& p) {
   using namespace math;
   const auto at = [&](const T& slope_i, const T& slope_r) [[gnu::always_inline]] -> SurfaceTerms<T> {
-    return {
-        log_height_ratio(settings.effective_roughness, slope_i, slope_r, p, floor),
-        shadowing_over_cosine(settings, slope_i, s.tail, p.cos_i, p.one_minus_cos_i, p.log_one_minus_cos_i, floor) *
-            shadowing_over_cosine(settings, slope_r, s.tail, p.cos_r, p.one_minus_cos_r, p.log_one_minus_cos_r, floor)};
+    return {log_height_ratio(settings.effective_roughness, slope_i, slope_r, p),
+            shadowing_over_cosine(settings, slope_i, s.tail, p.cos_i, p.one_minus_cos_i, p.log_one_minus_cos_i) *
+                shadowing_over_cosine(settings, slope_r, s.tail, p.cos_r, p.one_minus_cos_r, p.log_one_minus_cos_r)};
   };
   if (settings.anisotropic) {
     return at(directional_slope(settings.forms.anisotropy, s, p.cos2_phi_i, p.sin2_phi_i),
@@ -184,23 +181,18 @@ template <class T, class G>
 /// e^x, x from -infinity on: beside a lobe that sigma_e made infinitely narrow its exponent is infinite, and so is the
 /// exponent's derivative. That of a dual number is 0 there, not 0 * infinity.
 template <class T>
-[[nodiscard]] [[gnu::always_inline]] inline T exp_of_lobe(const T& x, math::NoFloor) {
+[[nodiscard]] [[gnu::always_inline]] inline T exp_of_lobe(const T& x) {
   using namespace math;
   return select(x > -1e300, T(exp(x)), T(0.0));
 }
-template <class T>
-[[nodiscard]] [[gnu::always_inline]] inline T exp_of_lobe(const T& x, math::FloorAt floor) {
-  using namespace math;
-  return exp(floored(x, floor));
-}
 
 /// S D / (pi cos_i cos_r).
-template <class T, class G, class Floor = math::NoFloor>
+template <class T, class G>
 [[nodiscard]] [[gnu::always_inline]] inline T dd_shape(const ShapeSettings& settings, const SurfaceParameters<T>& s,
                                                        const SurfaceTerms<T>& t, double wavelength_um,
-                                                       const BasicPair<G>& p, Floor floor = {}) {
+                                                       const BasicPair<G>& p) {
   using namespace math;
-  const T lobe = exp_of_lobe(log_lobe(settings, s, t.log_height_ratio, wavelength_um, p), floor);
+  const T lobe = exp_of_lobe(log_lobe(settings, s, t.log_height_ratio, wavelength_um, p));
   return t.shadowing_over_cosines * (slope_independent_factor(p) / pi_of<G>()) * lobe;
 }
 
@@ -217,10 +209,9 @@ template <class T, class G>
 
 /// (1-cos_i)(1-cos_r) exp(-tan²θ_f/(16 m_e²)) / pi on the forward side. `printed` has tan²θ_f of V alone and is not
 /// reciprocal (up to 86 % of its maximum for the paper's laser paper); `reciprocal` takes the mean of both orders.
-template <class T, class G, class Floor = math::NoFloor>
+template <class T, class G>
 [[nodiscard]] [[gnu::always_inline]] inline T fs_shape(const ShapeSettings& settings, const SurfaceParameters<T>& s,
-                                                       const SurfaceTerms<T>& t, const BasicPair<G>& p,
-                                                       Floor floor = {}) {
+                                                       const SurfaceTerms<T>& t, const BasicPair<G>& p) {
   using namespace math;
   T exponent = forward_exponent(settings, s, t.log_height_ratio, p.tan2_f, p.cos2_phi_i, p.sin2_phi_i);
   if (settings.forms.fs == FsForm::reciprocal) {
@@ -228,7 +219,7 @@ template <class T, class G, class Floor = math::NoFloor>
     exponent = 0.5 * (exponent + swapped);
   }
   const G reach = p.one_minus_cos_i * p.one_minus_cos_r / pi_of<G>();
-  return exp_of_lobe(T(-0.0625 * exponent), floor) * select(p.forward, reach, G(0.0));
+  return exp_of_lobe(T(-0.0625 * exponent)) * select(p.forward, reach, G(0.0));
 }
 
 /// Whether V lies in the cone of solid angle dOmega about the mirror direction: 2(1 - cos) <= dOmega/pi.

@@ -12,7 +12,6 @@
 #include "brdf/effects.h"
 #include "brdf/shape_kernels.h"
 #include "fit/settings.h"
-#include "fit/shape_derivatives.h"
 
 namespace goniofit {
 
@@ -214,8 +213,10 @@ void SurfaceBasis::fill_by_kernel(const PairBatch& pairs, std::span<const double
     if (target->values == nullptr) continue;
     for (std::size_t k = 0; k < shape_.size(); ++k) std::fill_n(target->derivatives[k], pairs.size(), 0.0);
   }
-  shape_columns_with_derivatives(pairs, settings_, z[*slope_], dd, has_dd ? out.dd.derivatives[*slope_] : nullptr,
-                                 out.fs.values, out.fs.values != nullptr ? out.fs.derivatives[*slope_] : nullptr);
+  const auto column = [&](bool used, const Target& target) {
+    return used ? ColumnWithDerivative{target.values, target.derivatives[*slope_]} : ColumnWithDerivative{};
+  };
+  shape_columns(pairs, settings_, z[*slope_], column(has_dd, out.dd), column(out.fs.values != nullptr, out.fs));
 }
 
 // Few directions lie in the mirror cone, so beside the kernels these go one by one.

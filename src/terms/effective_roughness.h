@@ -12,11 +12,11 @@ namespace goniofit {
 /// Tier `li-torrance` (LT (8)): sigma_e = sigma {[1 - (1-c_i)^(1.6 q)] [1 - (1-c_r)^(1.6 q)]}^(0.1 q), q = tau/sigma.
 /// Returns ln of one direction's factor; on an anisotropic surface each direction has its own q (LT (23)).
 /// Against tier `he`, which is exact, at sigma 0.5, tau 3: within 0.018 up to 82°, 0.076 off at 85°/85°.
-template <class T, class G, class Floor = math::NoFloor>
-[[nodiscard]] [[gnu::always_inline]] inline T log_visible_part(const T& q, const G& log_one_minus_c, Floor floor = {}) {
+template <class T, class G>
+[[nodiscard]] [[gnu::always_inline]] inline T log_visible_part(const T& q, const G& log_one_minus_c) {
   using namespace math;
   // 1.6 and 0.1 as quotients: exact in every scalar type.
-  return q / 10.0 * log_one_minus_exp(floored(T(8.0 * q / 5.0 * log_one_minus_c), floor));
+  return q / 10.0 * log_one_minus_exp(T(8.0 * q / 5.0 * log_one_minus_c));
 }
 
 /// HT (82): K = tan theta erfc(cot theta/(2m)) of one direction at its slope m; 0 at the normal.

@@ -39,22 +39,6 @@ template <class T>
   return x2 * x2 * x;
 }
 
-/// A lower bound for arguments of exp, or none. The batch kernels bound them at a run-time value of -700 (e^-700 =
-/// 1e-304): vector exponentials fall back to scalar code below -708, and in 1 - e^x the difference is nil. A bound
-/// known at compile time would not do: the compiler then selects after the call.
-struct NoFloor {};
-struct FloorAt {
-  double bound;
-};
-template <class T>
-[[gnu::always_inline]] inline T floored(const T& x, NoFloor) {
-  return x;
-}
-template <class T>
-[[gnu::always_inline]] inline T floored(const T& x, FloorAt floor) {
-  return select(x < floor.bound, T(floor.bound), x);
-}
-
 /// ln(1 - e^x) for x < 0. One form cancels near 0, the other far from it; they meet at -ln 2.
 template <class T>
 [[gnu::always_inline]] inline T log_one_minus_exp(const T& x) {

@@ -10,11 +10,10 @@ namespace goniofit {
 /// Tier `li-torrance` (LT (6)): S1(c) = 1 - (1 - c)^q, q = tau/sigma, as -expm1(q ln(1 - c)). Its mean error
 /// against tier `smith` over uniform c is 0.5 to 5 %, the largest 12.8 %, for RMS slopes (√2/q) of 0.05 to 0.5; at 1.4
 /// they are 13 and 19 %.
-template <class T, class G, class Floor = math::NoFloor>
-[[nodiscard]] [[gnu::always_inline]] inline T shadowing_li_torrance(const T& q, const G& log_one_minus_c,
-                                                                    Floor floor = {}) {
+template <class T, class G>
+[[nodiscard]] [[gnu::always_inline]] inline T shadowing_li_torrance(const T& q, const G& log_one_minus_c) {
   using namespace math;
-  return -expm1(floored(T(q * log_one_minus_c), floor));
+  return -expm1(T(q * log_one_minus_c));
 }
 
 /// Tier `smith` (HT (24), (25), with the e^(-a²) that the 1991 print of (25) lacks), divided by c: S1 = (1 - ½ erfc a)

@@ -181,7 +181,7 @@ std::vector<Batch> batches() {
   return all;
 }
 
-/// The exponential of a batch's lobe is at least e^-700; values below e^-660 times what stands before it show that.
+/// The exponential of a batch's lobe is at least e^-690; values below e^-660 times what stands before it show that.
 double floored_share(bool forward, const ShapeSettings& settings, const Sample<double>& s) {
   if (forward) return std::exp(-660.0);
   const SurfaceTerms<double> t = surface_terms(settings, s.surface, s.pair);
@@ -195,7 +195,7 @@ void compare_batches(const std::vector<BatchLoop>& loops, bool forward, const ch
     for (const Batch& batch : all) {
       std::vector<double> values(batch.rows.size());
       const SurfaceParameters<double> surface = sample_of<double>(batch.surface, Pair{}).surface;
-      loop.run(batch.pairs, surface, exponent_floor, values.data());
+      loop.run(batch.pairs, surface, values.data());
       for (std::size_t i = 0; i < values.size(); ++i) {
         const Inputs& in = batch.rows[i];
         const Sample<double> sample = sample_of<double>(in, batch.pairs[i]);

@@ -1,41 +1,59 @@
 #pragma once
-// The shape templates as SIMD batches: one loop over a PairBatch for every combination of tiers, its settings known at
+// The shape templates as loops over lanes: one over a PairBatch for every combination of tiers, its settings known at
 // compile time. Private to the files batch_*.cpp, which are compiled for vectorisation.
 
 #include "batch_loops.h"
-#include "brdf/shape_loop.h"
+#include "support/vectorised.h"
+#include "terms/lane_math.h"
 
 namespace goniofit::stability::batch_loop {
 
+using T = Lane<double>;
+
+struct ShapeArguments {
+  const PairBatch& pairs;
+  const SurfaceParameters<double>& surface;
+  double* values;
+};
+
 template <ShadowingTier shadowing, EffectiveRoughnessTier roughness, DistributionTier distribution, bool anisotropic>
-GONIOFIT_VECTOR_CLONES void dd(const PairBatch& pairs, const SurfaceParameters<double>& surface, double floor_bound,
-                               double* values) {
-  constexpr ShapeSettings settings{shadowing, roughness, distribution, {}, anisotropic};
-  const math::FloorAt floor{floor_bound};
-  const SurfaceParameters<double> s = surface;
-  const std::size_t n = pairs.size();
+struct DdLoop {
+  using Arguments = ShapeArguments;
+
+  [[gnu::always_inline]] static void run(const Arguments& a) {
+    constexpr ShapeSettings settings{shadowing, roughness, distribution, {}, anisotropic};
+    const SurfaceParameters<T> s{a.surface.log_slope, a.surface.log_slope_y, a.surface.tail, a.surface.log_sigma};
+    const std::size_t n = a.pairs.size();
 #pragma GCC ivdep
-  for (std::size_t i = 0; i < n; ++i) {
-    const Pair p = pairs[i];
-    const SurfaceTerms<double> t = surface_terms(settings, s, p, floor);
-    values[i] = dd_shape(settings, s, t, 1.0, p, floor);
+    for (std::size_t i = 0; i < n; ++i) {
+      const BasicPair<T> p = a.pairs.as<T>(i);
+      const SurfaceTerms<T> t = surface_terms(settings, s, p);
+      a.values[i] = dd_shape(settings, s, t, 1.0, p).v;
+    }
   }
-}
+};
 
 template <EffectiveRoughnessTier roughness, FsForm form, bool anisotropic>
-GONIOFIT_VECTOR_CLONES void fs(const PairBatch& pairs, const SurfaceParameters<double>& surface, double floor_bound,
-                               double* values) {
-  constexpr ShapeSettings settings{
-      ShadowingTier::none, roughness, DistributionTier::rough_limit, {.fs = form}, anisotropic};
-  const math::FloorAt floor{floor_bound};
-  const SurfaceParameters<double> s = surface;
-  const std::size_t n = pairs.size();
+struct FsLoop {
+  using Arguments = ShapeArguments;
+
+  [[gnu::always_inline]] static void run(const Arguments& a) {
+    constexpr ShapeSettings settings{
+        ShadowingTier::none, roughness, DistributionTier::rough_limit, {.fs = form}, anisotropic};
+    const SurfaceParameters<T> s{a.surface.log_slope, a.surface.log_slope_y, a.surface.tail, a.surface.log_sigma};
+    const std::size_t n = a.pairs.size();
 #pragma GCC ivdep
-  for (std::size_t i = 0; i < n; ++i) {
-    const Pair p = pairs[i];
-    const SurfaceTerms<double> t = surface_terms(settings, s, p, floor);
-    values[i] = fs_shape(settings, s, t, p, floor);
+    for (std::size_t i = 0; i < n; ++i) {
+      const BasicPair<T> p = a.pairs.as<T>(i);
+      const SurfaceTerms<T> t = surface_terms(settings, s, p);
+      a.values[i] = fs_shape(settings, s, t, p).v;
+    }
   }
+};
+
+template <class Loop>
+void run(const PairBatch& pairs, const SurfaceParameters<double>& surface, double* values) {
+  Vectorised<Loop>::of(best_instruction_set())({pairs, surface, values});
 }
 
 /// Calls f.template operator()<shadowing, roughness, anisotropic>() for all of them.
@@ -60,8 +78,8 @@ template <DistributionTier distribution>
 [[nodiscard]] std::vector<BatchLoop> dd_loops() {
   std::vector<BatchLoop> loops;
   for_all_tiers([&]<ShadowingTier shadowing, EffectiveRoughnessTier roughness, bool anisotropic>() {
-    loops.push_back(
-        {{shadowing, roughness, distribution, {}, anisotropic}, &dd<shadowing, roughness, distribution, anisotropic>});
+    loops.push_back({{shadowing, roughness, distribution, {}, anisotropic},
+                     &run<DdLoop<shadowing, roughness, distribution, anisotropic>>});
   });
   return loops;
 }

@@ -10,7 +10,7 @@ namespace goniofit::stability {
 
 struct BatchLoop {
   ShapeSettings settings;
-  void (*run)(const PairBatch& pairs, const SurfaceParameters<double>& surface, double floor_bound, double* values);
+  void (*run)(const PairBatch& pairs, const SurfaceParameters<double>& surface, double* values);
 };
 
 [[nodiscard]] std::vector<BatchLoop> rough_limit_loops();  ///< dd_shape

@@ -10,7 +10,7 @@ std::vector<BatchLoop> fs_loops() {
     if constexpr (shadowing == ShadowingTier::none) {
       const auto add = [&]<FsForm form>() {
         loops.push_back({{shadowing, roughness, DistributionTier::rough_limit, {.fs = form}, anisotropic},
-                         &batch_loop::fs<roughness, form, anisotropic>});
+                         &batch_loop::run<batch_loop::FsLoop<roughness, form, anisotropic>>});
       };
       add.template operator()<FsForm::printed>();
       add.template operator()<FsForm::reciprocal>();

@@ -45,9 +45,9 @@ TradeoffRow row_of(const tradeoff::Table& table, const Candidate& c) {
   return row;
 }
 
-// Slow candidates (the series, the integral over grooves) get fewer pairs, so that one measurement is never of the
-// order of a second.
-constexpr double longest_seconds = 0.05;
+// Slow candidates (the series, the integral over grooves) get fewer pairs, so that a measurement fits between two
+// interruptions of a busy machine.
+constexpr double longest_seconds = 0.002;
 std::size_t affordable(const Candidate& c, std::size_t pairs) {
   constexpr std::size_t tried = 32;
   const DirectionBatch few = random_pairs(tried, 0);

@@ -45,15 +45,16 @@ TradeoffRow row_of(const tradeoff::Table& table, const Candidate& c) {
   return row;
 }
 
-// Slow candidates (the series, the integral over grooves) get fewer pairs, so that one measurement is never of the
-// order of a second.
-constexpr double longest_seconds = 0.05;
+// Slow candidates (the series, the integral over grooves) get fewer pairs, so that a measurement fits between two
+// interruptions of a busy machine.
+constexpr double longest_seconds = 0.002;
 std::size_t affordable(const Candidate& c, std::size_t pairs) {
   constexpr std::size_t tried = 32;
   const DirectionBatch few = random_pairs(tried, 0);
   const TimedTask task = evaluation_task(c, few);
-  const TimingSettings once{.rounds = 1, .least_seconds = 0.0};
-  const double ns = time_interleaved(std::span(&task, 1), 0, once)[0].median_ns * task.evaluations / tried;
+  // The least of a few: one interruption must not pass for a slow candidate.
+  const TimingSettings few_rounds{.rounds = 3, .least_seconds = 0.0};
+  const double ns = time_interleaved(std::span(&task, 1), 0, few_rounds)[0].min_ns * task.evaluations / tried;
   return std::clamp(static_cast<std::size_t>(1e9 * longest_seconds / std::max(ns, 1e-3)), tried, pairs);
 }
 

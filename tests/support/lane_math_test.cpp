@@ -1,6 +1,6 @@
 // The inline functions of lanes against the C library's, over their whole ranges.
 
-#include "terms/lane_math.h"
+#include "support/lane_math.h"
 
 #include <gtest/gtest.h>
 

@@ -8,6 +8,8 @@
 #include <limits>
 #include <random>
 
+#include "terms/scalar.h"
+
 namespace goniofit {
 namespace {
 

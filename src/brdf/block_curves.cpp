@@ -2,8 +2,8 @@
 #include <utility>
 
 #include "brdf/block_loops.h"
+#include "support/lane_math.h"
 #include "support/vectorised.h"
-#include "terms/lane_math.h"
 
 namespace goniofit::block {
 

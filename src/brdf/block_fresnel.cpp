@@ -1,6 +1,6 @@
 #include "brdf/block_loops.h"
+#include "support/lane_math.h"
 #include "support/vectorised.h"
-#include "terms/lane_math.h"
 
 namespace goniofit::block {
 

@@ -1,7 +1,7 @@
 #include "brdf/block_loops.h"
 #include "geometry/direction.h"
+#include "support/lane_math.h"
 #include "support/vectorised.h"
-#include "terms/lane_math.h"
 
 // The formulas of make_pair(Direction, Direction), which says why they are these; branch-free.
 

@@ -1,8 +1,8 @@
 #include <numbers>
 
 #include "brdf/block_loops.h"
+#include "support/lane_math.h"
 #include "support/vectorised.h"
-#include "terms/lane_math.h"
 
 namespace goniofit::block {
 

@@ -4,8 +4,8 @@
 #include "peers/ggx.h"
 #include "peers/neumann_neumann.h"
 #include "peers/ward.h"
+#include "support/lane_math.h"
 #include "support/vectorised.h"
-#include "terms/lane_math.h"
 
 namespace goniofit::block {
 

@@ -152,8 +152,9 @@ class Checker {
     const MaterialChannel& channel = material_.channels[i];
     const std::string pointer = "/channels/" + std::to_string(i);
     for (const auto& [name, value] : channel.peer_k) {
-      const bool known = std::any_of(basis.coefficients().begin(), basis.coefficients().end(),
-                                     [&](const BasisCoefficient& c) { return c.name == name && !c.constant(); });
+      const bool known = std::any_of(
+          basis.coefficients().begin(), basis.coefficients().end(),
+          [&, &coefficient = name](const BasisCoefficient& c) { return c.name == coefficient && !c.constant(); });
       if (!known) fail(pointer + pointer_step(name), "is not a coefficient of " + material_.model);
       require_at_least_zero(value, pointer + pointer_step(name));
     }

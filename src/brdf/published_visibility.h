@@ -3,7 +3,7 @@
 
 #include <limits>
 
-#include "../terms/lane_math.h"
+#include "../support/lane_math.h"
 
 namespace goniofit::block {
 

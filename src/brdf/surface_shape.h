@@ -104,10 +104,11 @@ template <class T, class G>
                                                                           const SurfaceParameters<T>& s,
                                                                           const BasicPair<G>& p) {
   using namespace math;
-  const auto at = [&](const T& slope_i, const T& slope_r) [[gnu::always_inline]] -> SurfaceTerms<T> {
-    return {log_height_ratio(settings.effective_roughness, slope_i, slope_r, p),
-            shadowing_over_cosine(settings, slope_i, s.tail, p.cos_i, p.one_minus_cos_i, p.log_one_minus_cos_i) *
-                shadowing_over_cosine(settings, slope_r, s.tail, p.cos_r, p.one_minus_cos_r, p.log_one_minus_cos_r)};
+  const auto at = [&](const T& slope_i, const T& slope_r) __attribute__((always_inline)) {
+    return SurfaceTerms<T>{
+        log_height_ratio(settings.effective_roughness, slope_i, slope_r, p),
+        shadowing_over_cosine(settings, slope_i, s.tail, p.cos_i, p.one_minus_cos_i, p.log_one_minus_cos_i) *
+            shadowing_over_cosine(settings, slope_r, s.tail, p.cos_r, p.one_minus_cos_r, p.log_one_minus_cos_r)};
   };
   if (settings.anisotropic) {
     return at(directional_slope(settings.forms.anisotropy, s, p.cos2_phi_i, p.sin2_phi_i),

@@ -104,8 +104,8 @@ void check_models(const FitSettings& settings, const std::vector<std::string>& m
     (void)settings_for_model(model, settings);  // a slip in the last name shall not cost the fits of those before it
   }
   for (const auto& [key, setting] : settings.parameters) {
-    const bool known = std::any_of(models.begin(), models.end(), [&](const std::string& model) {
-      return has_parameter(settings_for_model(model, settings).model, parameter_of(key));
+    const bool known = std::any_of(models.begin(), models.end(), [&, &name = key](const std::string& model) {
+      return has_parameter(settings_for_model(model, settings).model, parameter_of(name));
     });
     if (!known) throw usage_error("parameter " + key + ": none of the models compared has it");
   }

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <type_traits>
 
-#include "lane_math.h"
+#include "../support/lane_math.h"
 #include "polynomial.h"
 
 namespace goniofit::he_torrance {

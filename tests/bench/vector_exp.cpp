@@ -1,7 +1,7 @@
 #include "vector_exp.h"
 
 #include "support/vectorised.h"
-#include "terms/lane_math.h"
+#include "support/lane_math.h"
 
 namespace goniofit::bench {
 

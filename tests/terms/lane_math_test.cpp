@@ -1,12 +1,14 @@
 // The inline functions of lanes against the C library's, over their whole ranges.
 
-#include "terms/lane_math.h"
+#include "support/lane_math.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 #include <random>
+
+#include "terms/scalar.h"
 
 namespace goniofit {
 namespace {

@@ -3,8 +3,8 @@
 // compile time. Private to the files batch_*.cpp, which are compiled for vectorisation.
 
 #include "batch_loops.h"
+#include "support/lane_math.h"
 #include "support/vectorised.h"
-#include "terms/lane_math.h"
 
 namespace goniofit::stability::batch_loop {
 

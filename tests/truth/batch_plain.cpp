@@ -1,7 +1,7 @@
 #include "batch_loops.h"
+#include "support/lane_math.h"
 #include "support/vectorised.h"
 #include "terms/fresnel.h"
-#include "terms/lane_math.h"
 #include "terms/oren_nayar.h"
 
 namespace goniofit::stability {

@@ -15,7 +15,7 @@
 #include <limits>
 #include <type_traits>
 
-#include "scalar.h"
+#include <cmath>
 
 namespace goniofit {
 

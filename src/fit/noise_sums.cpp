@@ -88,4 +88,18 @@ GONIOFIT_CLONES AgreementSums agreement_sums(const NoiseReadings& r, const Suppo
   return {total(sums.expected), total(sums.found), total(sums.squares)};
 }
 
+GONIOFIT_CLONES void set_squares_left(const LeftNoise& r, double least_left, double* leverage,
+                                      double* square) noexcept {
+  const LeftNoise from = r;
+  for (std::size_t i = 0; i < from.size; ++i) {
+    const double v = from.variance[i];
+    const bool known = v > 0.0;
+    const double quotient = from.added[i] / (known ? v : 1.0);
+    const double left = known ? 1.0 - 2.0 * leverage[i] + quotient : 1.0;
+    const bool tells = !(left < least_left);
+    square[i] = from.residual[i] * from.residual[i] / (tells ? left : least_left);
+    leverage[i] = tells ? leverage[i] : 0.0;
+  }
+}
+
 }  // namespace goniofit

@@ -35,7 +35,10 @@ Cluster cluster_of(const JointJacobian& j, const std::vector<Eigen::VectorXd>& r
   Cluster out{{}, Eigen::MatrixXd::Zero(j.size(), j.size()), {}};
   Eigen::VectorXd score = Eigen::VectorXd::Zero(j.size());
   for (std::size_t c = 0; c < residuals.size(); ++c) {
-    const Eigen::MatrixXd u = j.blocks()[c].jacobian(rows, Eigen::all) * j.own_root(c);
+    const JacobianBlock& block = j.blocks()[c];
+    Eigen::MatrixXd own(static_cast<Eigen::Index>(rows.size()), block.cols());
+    for (Eigen::Index p = 0; p < own.cols(); ++p) own.col(p) = block.column(p)(rows);
+    const Eigen::MatrixXd u = own * j.own_root(c);
     out.gram.noalias() += u.transpose() * u;
     score.noalias() += u.transpose() * residuals[c](rows);
   }

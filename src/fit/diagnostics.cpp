@@ -68,7 +68,7 @@ Region region_of(const Scan& scan, std::size_t row, const Pair& pair) {
 class Diagnosis {
  public:
   Diagnosis(const Scan& scan, const Material& material, DiagnosticsOptions options)
-      : scan_(scan), material_(material), options_(std::move(options)), place_(scan.size(), unused) {
+      : scan_(scan), material_(material), options_(std::move(options)) {
     choose_rows();
     if (!options_.values) {
       const Evaluator evaluator(material);
@@ -79,6 +79,7 @@ class Diagnosis {
     for (double& u : options_.values->open) u *= open_sds;
     place_readings();
     lines_ = detector_lines(scan);
+    signed_theta_r_.reserve(scan.size());
     for (std::size_t row = 0; row < scan.size(); ++row)
       signed_theta_r_.push_back(delta_phi_deg(scan, row) > 0.0 ? scan.theta_r_deg[row] : -scan.theta_r_deg[row]);
     pairs_of_rows_ = swapped_rows(scan);
@@ -86,20 +87,19 @@ class Diagnosis {
   [[nodiscard]] FitDiagnostics result();
 
  private:
-  static constexpr std::size_t unused = static_cast<std::size_t>(-1);
-
   void choose_rows();
   void place_readings();
   void add_channel(std::size_t c);
   void add_misfit(std::size_t c);
   void add_runs();
+  [[nodiscard]] std::vector<std::int8_t> residual_signs() const;
   void add_noise(std::size_t c);
   void add_counts(std::size_t c);
   void add_regions();
   void add_brightness();
   void add_chi_square();
   [[nodiscard]] const PairBatch& pairs() const noexcept { return *options_.values->pairs; }
-  [[nodiscard]] double noise_floor(std::size_t c) const;
+  [[nodiscard]] double noise_floor(std::size_t c);
   [[nodiscard]] std::optional<double> reciprocity(std::size_t c) const;
   [[nodiscard]] double value(std::size_t i, std::size_t c) const { return scan_.channels[c].values[rows_[i]]; }
   [[nodiscard]] bool counts(std::size_t i, std::size_t c) const {
@@ -121,7 +121,6 @@ class Diagnosis {
   const Material& material_;
   DiagnosticsOptions options_;
   Rows rows_;            // of the readings used
-  Rows place_;           // of each row of the scan in rows_
   PairBatch own_pairs_;  // where the options have none
   std::vector<double> weight_;
   std::vector<Region> region_;
@@ -130,6 +129,8 @@ class Diagnosis {
   SwappedRows pairs_of_rows_;
   std::array<Sums, region_count> by_region_;
   std::array<std::vector<double>, region_count> parts_;  // of every channel: see Sums::misfit
+  // What a step of a channel gathers. Of millions of readings fresh memory takes longer than what is done with it.
+  std::vector<double> gathered_, gathered_residuals_;
   FitDiagnostics out_;
 };
 
@@ -139,13 +140,13 @@ void Diagnosis::choose_rows() {
     if (std::max(scan_.theta_i_deg[row], scan_.theta_r_deg[row]) < 90.0) rows.push_back(row);
   }
   rows_ = options_.used ? std::move(options_.used->rows) : std::move(rows);
-  for (std::size_t i = 0; i < rows_.size(); ++i) {
-    place_[rows_[i]] = i;
-    if (!options_.values) own_pairs_.push_back(make_pair(scan_.angles(rows_[i])));
-  }
+  if (options_.values) return;
+  for (const std::size_t row : rows_) own_pairs_.push_back(make_pair(scan_.angles(row)));
 }
 
 void Diagnosis::place_readings() {
+  weight_.reserve(rows_.size());
+  region_.reserve(rows_.size());
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     const Pair pair = pairs()[i];
     weight_.push_back(has_cosine(options_.weight) ? pair.cos_i : 1.0);
@@ -155,9 +156,11 @@ void Diagnosis::place_readings() {
 
 // The additive noise of the scan itself: what readings between two others of a line differ from the straight line
 // through these, where the scan is darkest and a lobe's curvature and relative noise are least.
-double Diagnosis::noise_floor(std::size_t c) const {
+double Diagnosis::noise_floor(std::size_t c) {
   constexpr std::size_t fewest = 10;
-  std::vector<double> sizes;
+  std::vector<double>& sizes = gathered_;
+  sizes.clear();
+  sizes.reserve(rows_.size());
   for (std::size_t i = 0; i < rows_.size(); ++i) sizes.push_back(std::fabs(value(i, c)));
   if (sizes.empty()) return 0.0;
   const double dark = value_at_rank(sizes, sizes.size() / 4);
@@ -198,7 +201,8 @@ void Diagnosis::add_misfit(std::size_t c) {
     if (larger > floor(i, c)) parts_[region].push_back(std::max(0.0, std::fabs(residual) - open(i, c)) / larger);
   }
   Sums channel;
-  std::vector<double> parts;
+  std::vector<double>& parts = gathered_;
+  parts.clear();
   for (std::size_t k = 0; k < region_count; ++k) {
     channel.add(regions[k]);
     by_region_[k].add(regions[k]);
@@ -207,26 +211,43 @@ void Diagnosis::add_misfit(std::size_t c) {
   out_.channels[c].misfit = channel.misfit(parts);
 }
 
-// All channels along one way through the scan, which is no way through memory.
-void Diagnosis::add_runs() {
-  std::vector<std::vector<double>> residuals(out_.channels.size());
-  for (std::size_t l = 0; l < lines_.size(); ++l) {
-    for (std::vector<double>& own : residuals) own.clear();
-    for (const std::size_t row : lines_[l]) {
-      const std::size_t i = place_[row];
-      if (i == unused || pairs().mirror_distance2[i] <= material_.solid_angle_sr / pi) continue;
-      for (std::size_t c = 0; c < residuals.size(); ++c) {
-        const double residual = value(i, c) - fitted(i, c);
-        if (counts(i, c) && std::fabs(residual) > open(i, c)) residuals[c].push_back(residual);
-      }
+// Of every row of the scan and channel; 0 where the runs test leaves it out.
+std::vector<std::int8_t> Diagnosis::residual_signs() const {
+  const std::size_t channels = out_.channels.size();
+  std::vector<std::int8_t> signs(scan_.size() * channels, 0);
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    if (pairs().mirror_distance2[i] <= material_.solid_angle_sr / pi) continue;
+    for (std::size_t c = 0; c < channels; ++c) {
+      const double residual = value(i, c) - fitted(i, c);
+      const bool open_to_it = !counts(i, c) || !(std::fabs(residual) > open(i, c));
+      signs[rows_[i] * channels + c] = open_to_it ? std::int8_t{0} : residual > 0.0 ? std::int8_t{1} : std::int8_t{-1};
     }
-    for (std::size_t c = 0; c < residuals.size(); ++c) out_.channels[c].runs.add_line(residuals[c]);
+  }
+  return signs;
+}
+
+// Lines are a way through the scan that is no way through memory: along it go the signs alone, a byte each, and all
+// channels at once.
+void Diagnosis::add_runs() {
+  const std::vector<std::int8_t> signs = residual_signs();
+  const std::size_t channels = out_.channels.size();
+  std::vector<double> line;
+  for (std::size_t l = 0; l < lines_.size(); ++l) {
+    const std::span<const std::size_t> rows = lines_[l];
+    for (std::size_t c = 0; c < channels; ++c) {
+      line.clear();
+      for (const std::size_t row : rows) line.push_back(signs[row * channels + c]);
+      out_.channels[c].runs.add_line(line);
+    }
   }
 }
 
 void Diagnosis::add_noise(std::size_t c) {
-  std::vector<double> model;
-  std::vector<double> residuals;
+  std::vector<double>& model = gathered_;
+  std::vector<double>& residuals = gathered_residuals_;
+  model.clear();
+  residuals.clear();
+  residuals.reserve(rows_.size());
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     if (!counts(i, c)) continue;
     model.push_back(fitted(i, c));
@@ -252,7 +273,8 @@ void Diagnosis::add_noise(std::size_t c) {
 // Values that a detector or a program has cut off are alike to the last digit, which measured ones seldom are. Where
 // most of the readings are alike the surface is.
 void Diagnosis::add_counts(std::size_t c) {
-  std::vector<double> values;
+  std::vector<double>& values = gathered_;
+  values.clear();
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     if (counts(i, c)) values.push_back(value(i, c));
   }
@@ -288,6 +310,8 @@ void Diagnosis::add_regions() {
 void Diagnosis::add_brightness() {
   std::vector<double> squares;
   std::vector<double> positive;
+  squares.reserve(rows_.size() * scan_.channels.size());
+  positive.reserve(rows_.size() * scan_.channels.size());
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     for (std::size_t c = 0; c < scan_.channels.size(); ++c) {
       if (!counts(i, c)) continue;

@@ -47,7 +47,11 @@ GONIOFIT_CLONES void add_scaled(double c, const double* a, double* out, std::siz
 }
 
 GONIOFIT_CLONES void multiply(const double* a, const double* b, double* out, std::size_t n) noexcept {
-  for (std::size_t i = 0; i < n; ++i) out[i] = a[i] * b[i];
+  constexpr double nil = 1e-150;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double product = a[i] * b[i];
+    out[i] = product < nil && product > -nil ? 0.0 : product;
+  }
 }
 
 GONIOFIT_CLONES void add_products(const double* const* columns, std::size_t count, std::size_t n, double* out) {

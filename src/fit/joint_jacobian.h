@@ -10,10 +10,33 @@
 
 namespace goniofit {
 
-/// One channel, over the parameters it depends on, and where these stand in the whole.
-struct JacobianBlock {
-  Eigen::MatrixXd jacobian;  ///< readings x own parameters
-  std::vector<Eigen::Index> index;
+/// One channel, over the parameters it depends on, and where these stand in the whole. Its columns are those of the
+/// linearisation that it was made of, which has to outlive it: of millions of readings a copy is most of the memory.
+class JacobianBlock {
+ public:
+  explicit JacobianBlock(Eigen::Index rows) : rows_(rows) {}
+  void add(Eigen::Index place, const double* column) {
+    index_.push_back(place);
+    columns_.push_back(column);
+  }
+
+  [[nodiscard]] const std::vector<Eigen::Index>& index() const noexcept { return index_; }
+  [[nodiscard]] const std::vector<const double*>& columns() const noexcept { return columns_; }
+  [[nodiscard]] Eigen::Index rows() const noexcept { return rows_; }
+  [[nodiscard]] Eigen::Index cols() const noexcept { return static_cast<Eigen::Index>(columns_.size()); }
+  [[nodiscard]] Eigen::Map<const Eigen::VectorXd> column(Eigen::Index p) const {
+    return {columns_[static_cast<std::size_t>(p)], rows_};
+  }
+  [[nodiscard]] Eigen::RowVectorXd row(Eigen::Index i) const;
+  [[nodiscard]] Eigen::VectorXd times(const Eigen::VectorXd& by) const;
+  [[nodiscard]] Eigen::VectorXd transposed_times(const Eigen::VectorXd& v) const;
+  /// R of diag(weight) J = QR; `weight` may be null for 1.
+  [[nodiscard]] Eigen::MatrixXd triangle(const double* weight) const;
+
+ private:
+  Eigen::Index rows_;
+  std::vector<Eigen::Index> index_;
+  std::vector<const double*> columns_;
 };
 
 /// Places of the parameters in the whole; -1 where left out.
@@ -26,7 +49,7 @@ struct ParameterPlaces {
 
 class JointJacobian {
  public:
-  /// Requires at least one place.
+  /// Requires at least one place. Reads `l` as long as it lives.
   JointJacobian(const Linearisation& l, const ParameterPlaces& places);
 
   [[nodiscard]] const std::vector<JacobianBlock>& blocks() const noexcept { return blocks_; }

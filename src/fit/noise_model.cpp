@@ -22,22 +22,51 @@ struct NoiseClass {
   double f2, variance;
 };
 
+// Rows in the order of the sizes of f, those of equal size in their own, as far as anybody asks: by the exponent and
+// ten bits of the fraction throughout, in full about the ranks asked for.
+class SizeOrder {
+ public:
+  explicit SizeOrder(const Eigen::VectorXd& f) : order_(static_cast<std::size_t>(f.size())) {
+    for (std::size_t i = 0; i < order_.size(); ++i)
+      order_[i] = {key_of_size(std::fabs(f[static_cast<Eigen::Index>(i)])), i};
+    radix_sort(order_, rough_bit);
+  }
+  [[nodiscard]] std::size_t size() const noexcept { return order_.size(); }
+  /// The row at `rank`; all before it in full order come before it here too. Ranks have to ascend.
+  Eigen::Index settle(std::size_t rank) {
+    if (rank >= settled_) {
+      const auto rough = [](const KeyedRow& r) { return r.key >> rough_bit; };
+      const auto alike = std::equal_range(order_.begin(), order_.end(), order_[rank],
+                                          [&](const KeyedRow& a, const KeyedRow& b) { return rough(a) < rough(b); });
+      std::sort(alike.first, alike.second,
+                [](const KeyedRow& a, const KeyedRow& b) { return a.key != b.key ? a.key < b.key : a.row < b.row; });
+      settled_ = static_cast<std::size_t>(alike.second - order_.begin());
+    }
+    return row(rank);
+  }
+  [[nodiscard]] Eigen::Index row(std::size_t rank) const noexcept {
+    return static_cast<Eigen::Index>(order_[rank].row);
+  }
+
+ private:
+  static constexpr unsigned rough_bit = 42;
+  std::vector<KeyedRow> order_;
+  std::size_t settled_ = 0;
+};
+
 std::vector<NoiseClass> classes_of(const Eigen::VectorXd& f, const Eigen::VectorXd& residual, double floor2) {
-  std::vector<KeyedRow> order(static_cast<std::size_t>(f.size()));
-  for (std::size_t i = 0; i < order.size(); ++i)
-    order[i] = {key_of_size(std::fabs(f[static_cast<Eigen::Index>(i)])), i};
-  radix_sort(order);
+  SizeOrder order(f);
   const std::size_t count = std::clamp<std::size_t>(order.size() / 25, 1, 20);
   std::vector<NoiseClass> classes;
   std::vector<double> size;
   for (std::size_t c = 0; c < count; ++c) {
     const std::size_t first = c * order.size() / count;
     const std::size_t end = (c + 1) * order.size() / count;
+    const double middle = f[order.settle(first + (end - first) / 2)];
+    if (end < order.size()) order.settle(end);
     size.clear();
-    for (std::size_t i = first; i < end; ++i)
-      size.push_back(std::fabs(residual[static_cast<Eigen::Index>(order[i].row)]));
+    for (std::size_t i = first; i < end; ++i) size.push_back(std::fabs(residual[order.row(i)]));
     const double sigma = sigma_of_median * median(size);
-    const double middle = f[static_cast<Eigen::Index>(order[first + (end - first) / 2].row)];
     classes.push_back({middle * middle, std::max(sigma * sigma, floor2)});
   }
   return classes;

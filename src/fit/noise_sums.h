@@ -32,4 +32,13 @@ struct AgreementSums {
 };
 [[nodiscard]] AgreementSums agreement_sums(const NoiseReadings& r, const SupposedNoise& noise) noexcept;
 
+/// What fits leave of noise: residuals, the variance supposed of each, and what the fit adds to it, J_i V J_iᵀ.
+struct LeftNoise {
+  const double *residual, *variance, *added;
+  std::size_t size;
+};
+/// square = residual² / left, left = 1 - 2 leverage + added / variance and no less than `least_left`; where it is less
+/// the leverage becomes 0.
+void set_squares_left(const LeftNoise& r, double least_left, double* leverage, double* square) noexcept;
+
 }  // namespace goniofit

@@ -216,6 +216,7 @@ void Problem::fill_values(const Scan& scan, const FitSettings& settings) {
     const ScanChannel& from = scan.channels[c];
     std::vector<double> values;
     std::vector<double> u;
+    values.reserve(rows.size());
     for (const std::size_t row : rows) {
       values.push_back(from.values[row]);
       if (!from.u.empty()) u.push_back(from.u[row]);

@@ -106,12 +106,8 @@ void set_squares(const JointJacobian& j, const std::vector<Eigen::VectorXd>& res
   for (std::size_t c = 0; c < samples.size(); ++c) {
     const Eigen::VectorXd taken = j.variances_by(c, root);
     Sample& s = samples[c];
-    for (Eigen::Index i = 0; i < taken.size(); ++i) {
-      const double v = variance[c][i];
-      const double left = v > 0.0 ? 1.0 - 2.0 * s.leverage[i] + taken[i] / v : 1.0;
-      s.square[i] = residuals[c][i] * residuals[c][i] / std::max(left, least_left);
-      if (left < least_left) s.leverage[i] = 0.0;
-    }
+    set_squares_left({residuals[c].data(), variance[c].data(), taken.data(), static_cast<std::size_t>(taken.size())},
+                     least_left, s.leverage.data(), s.square.data());
   }
 }
 

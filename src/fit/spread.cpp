@@ -34,9 +34,9 @@ Spread spread_by_residuals(const JointJacobian& j, const std::vector<Eigen::Vect
     for (Eigen::Index i = 0; i < leverage.size(); ++i) {
       const bool decides = leverage[i] >= full_leverage;
       own_e[i] = decides ? 0.0 : residuals[c][i] / (1.0 - leverage[i]);
-      for (Eigen::Index p = 0; decides && p < b.jacobian.cols(); ++p) {
-        const Eigen::Index place = b.index[static_cast<std::size_t>(p)];
-        if (b.jacobian(i, p) * b.jacobian(i, p) * j.root().row(place).squaredNorm() > 0.25)
+      for (Eigen::Index p = 0; decides && p < b.cols(); ++p) {
+        const Eigen::Index place = b.index()[static_cast<std::size_t>(p)];
+        if (b.column(p)[i] * b.column(p)[i] * j.root().row(place).squaredNorm() > 0.25)
           out.single[static_cast<std::size_t>(place)] = true;
       }
     }

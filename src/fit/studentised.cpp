@@ -122,7 +122,9 @@ void Studentised::add(std::size_t c, const Eigen::VectorXd& leverage) {
   const JacobianBlock& block = j_.blocks()[c];
   const Eigen::MatrixXd own = j_.own_root(c);
   const Eigen::MatrixXd in_own = own * meat_ * own.transpose();
-  const Eigen::ArrayXd in_fit = (block.jacobian * in_own).cwiseProduct(block.jacobian).rowwise().sum();
+  Eigen::ArrayXd in_fit = Eigen::ArrayXd::Zero(block.rows());
+  for (Eigen::Index p = 0; p < block.cols(); ++p)
+    in_fit += block.times(in_own.col(p)).array() * block.column(p).array();
   const Eigen::ArrayXd& s = s_.emplace_back(variance_[c].array() * (1.0 - 2.0 * leverage.array()) + in_fit);
   const Eigen::ArrayXd factor =
       (leverage.array() < full_leverage).select((1.0 - leverage.array()).inverse().square() * s, 0.0);
@@ -150,7 +152,7 @@ Studentised::Share Studentised::share_of(const Eigen::VectorXd& by, const std::v
 
 Studentised::Direction Studentised::direction_of(std::size_t c, const Eigen::VectorXd& by,
                                                  const Eigen::ArrayXd& factor) const {
-  const Eigen::ArrayXd parts = (j_.blocks()[c].jacobian * by).array().square() * factor;
+  const Eigen::ArrayXd parts = j_.blocks()[c].times(by).array().square() * factor;
   Direction out{by, parts.sum(), parts.matrix().squaredNorm(), {}};
   const auto more = [](const Reading& a, const Reading& b) { return a.part > b.part; };
   // The largest, in a heap whose front is the least of them; of equal ones the first stay.
@@ -190,7 +192,7 @@ Eigen::MatrixXd Studentised::form(Eigen::Index column, const std::vector<Reading
   Eigen::VectorXd x(m);
   for (Eigen::Index i = 0; i < m; ++i) {
     const Reading& r = readings[static_cast<std::size_t>(i)];
-    u.row(i) = j_.blocks()[r.channel].jacobian.row(r.row) * j_.own_root(r.channel);
+    u.row(i) = j_.blocks()[r.channel].row(r.row) * j_.own_root(r.channel);
     omega[i] = variance_[r.channel][r.row];
     x[i] = r.part / s_[r.channel][r.row];
   }

@@ -203,7 +203,7 @@ void release(const Problem& problem, const Linearisation& l, const ParameterPlac
   if (j.singular() || (!spare && problem.uncertainty != UncertaintySource::readings)) return;
   const Eigen::VectorXd step = -j.solve(l.residuals);
   std::vector<Eigen::VectorXd> residuals = l.residuals;
-  for (std::size_t c = 0; c < residuals.size(); ++c) residuals[c] += j.blocks()[c].jacobian * step(j.blocks()[c].index);
+  for (std::size_t c = 0; c < residuals.size(); ++c) residuals[c] += j.blocks()[c].times(step(j.blocks()[c].index()));
   std::vector<Eigen::Index> held;
   for_each_place(out, places, [&held](const ParameterUncertainty& p, Eigen::Index i) {
     if (is_on_bound(p)) held.push_back(i);

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "scan/arrangement.h"
 
@@ -261,11 +260,12 @@ void Words::data() {
     say("{} readings of {} share its largest value {:g}: the detector saturated; exclude them (--exclude-saturated)",
         d_.channels[c].clipping.at_maximum, scan_.channels[c].name, d_.channels[c].clipping.maximum);
   }
-  std::set<std::int64_t> angles;
-  for (const double theta : scan_.theta_i_deg) angles.insert(centidegrees(theta));
-  if (angles.size() == 1) {
+  const std::vector<double>& theta = scan_.theta_i_deg;
+  const bool one = std::all_of(theta.begin(), theta.end(),
+                               [&](double other) { return centidegrees(other) == centidegrees(theta.front()); });
+  if (one && !theta.empty()) {
     say("one incidence angle only ({:g}°): how the surface reflects at others is the model's word, not the scan's",
-        scan_.theta_i_deg.front());
+        theta.front());
   }
 }
 

@@ -18,12 +18,14 @@ struct KeyedRow {
 /// The order of numbers that are not negative, as a key.
 [[nodiscard]] inline std::uint64_t key_of_size(double value) noexcept { return std::bit_cast<std::uint64_t>(value); }
 
-/// By key; rows of equal keys keep their order.
-inline void radix_sort(std::vector<KeyedRow>& rows) {
+/// By the key's bits from `first_bit` on; rows of which these are equal keep their order.
+inline void radix_sort(std::vector<KeyedRow>& rows, unsigned first_bit = 0) {
   constexpr unsigned bits = 11;
-  constexpr unsigned digits = 6;  // 66 bits
+  const unsigned digits = (64 - first_bit + bits - 1) / bits;
   constexpr std::size_t buckets = std::size_t{1} << bits;
-  const auto digit = [](std::uint64_t key, unsigned d) { return (key >> (d * bits)) & (buckets - 1); };
+  const auto digit = [first_bit](std::uint64_t key, unsigned d) {
+    return (key >> (first_bit + d * bits)) & (buckets - 1);
+  };
   std::vector<std::array<std::size_t, buckets>> counts(digits);
   for (const KeyedRow& r : rows) {
     for (unsigned d = 0; d < digits; ++d) ++counts[d][digit(r.key, d)];

@@ -139,10 +139,12 @@ void Diagnosis::choose_rows() {
     if (std::max(scan_.theta_i_deg[row], scan_.theta_r_deg[row]) < 90.0) rows.push_back(row);
   }
   rows_ = options_.used ? std::move(options_.used->rows) : std::move(rows);
-  for (std::size_t i = 0; i < rows_.size(); ++i) {
-    place_[rows_[i]] = i;
-    if (!options_.values) own_pairs_.push_back(make_pair(scan_.angles(rows_[i])));
-  }
+  for (std::size_t i = 0; i < rows_.size(); ++i) place_[rows_[i]] = i;
+  if (options_.values) return;
+  std::vector<AnglePair> angles;
+  angles.reserve(rows_.size());
+  for (const std::size_t row : rows_) angles.push_back(scan_.angles(row));
+  own_pairs_ = PairBatch(angles);
 }
 
 void Diagnosis::place_readings() {

@@ -13,8 +13,8 @@ namespace goniofit::block {
 
 inline constexpr std::size_t size = 256;
 
-/// Longer than a block by one vector: arrays of a power of two would lie at the same place of a page, and each load wait
-/// for the store before it.
+/// Longer than a block by one vector: arrays of a power of two would lie at the same place of a page, and each load
+/// wait for the store before it.
 template <class Real>
 using Array = std::array<Real, size + 16>;
 

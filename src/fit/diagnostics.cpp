@@ -141,7 +141,10 @@ void Diagnosis::choose_rows() {
   }
   rows_ = options_.used ? std::move(options_.used->rows) : std::move(rows);
   if (options_.values) return;
-  for (const std::size_t row : rows_) own_pairs_.push_back(make_pair(scan_.angles(row)));
+  std::vector<AnglePair> angles;
+  angles.reserve(rows_.size());
+  for (const std::size_t row : rows_) angles.push_back(scan_.angles(row));
+  own_pairs_ = PairBatch(angles);
 }
 
 void Diagnosis::place_readings() {

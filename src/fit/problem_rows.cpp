@@ -129,6 +129,8 @@ void Problem::choose_rows(const Scan& scan, const FitSettings& settings) {
   check_range(settings.max_theta_deg, 0.0, 90.0, "max-theta");
   const double cone = settings.exclusions.retro_cone_deg;
   check_range(cone, 0.0, 180.0, "exclude-retro");
+  std::vector<AnglePair> angles;
+  angles.reserve(scan.size());
   for (std::size_t row = 0; row < scan.size(); ++row) {
     const AnglePair a = scan.angles(row);
     const double theta = std::max(a.theta_i_deg, a.theta_r_deg);
@@ -141,9 +143,10 @@ void Problem::choose_rows(const Scan& scan, const FitSettings& settings) {
     } else {
       rows.push_back(row);
       theta_i_deg.push_back(a.theta_i_deg);
-      pairs.push_back(make_pair(a));
+      angles.push_back(a);
     }
   }
+  pairs = PairBatch(angles);
   sums = RowSums(rows.size());
   if (!rows.empty()) return;
   throw usage_error(scan.source + ": no reading is left to fit: " + std::to_string(exclusions.at_90) +

@@ -1,7 +1,7 @@
 #include "vector_exp.h"
 
-#include "support/vectorised.h"
 #include "support/lane_math.h"
+#include "support/vectorised.h"
 
 namespace goniofit::bench {
 

@@ -2,9 +2,21 @@
 // The shape templates as loops over lanes: one over a PairBatch for every combination of tiers, its settings known at
 // compile time. Private to the files batch_*.cpp, which are compiled for vectorisation.
 
+#include <limits>
+
 #include "batch_loops.h"
 #include "support/lane_math.h"
 #include "support/vectorised.h"
+
+namespace goniofit {
+
+/// He's distribution has no lanes (see batch_loops.h), but the templates name it.
+template <class Real>
+[[gnu::always_inline]] inline Lane<Real> log_wave_lobe(DistributionTier, const Lane<Real>&, const Lane<Real>&) {
+  return std::numeric_limits<Real>::quiet_NaN();
+}
+
+}  // namespace goniofit
 
 namespace goniofit::stability::batch_loop {
 

@@ -37,7 +37,8 @@ struct Loop {
   [[gnu::always_inline]] static void run(const Arguments& a) {
     const std::size_t n = a.pairs.size();
 #pragma GCC ivdep
-    for (std::size_t i = 0; i < n; ++i) a.values[i] = F{}(a.pairs.as<Lane<double>>(i), Lane<double>(a.parameter)).v;
+    for (std::size_t i = 0; i < n; ++i)
+      a.values[i] = F{}(a.pairs.template as<Lane<double>>(i), Lane<double>(a.parameter)).v;
   }
 };
 

@@ -18,14 +18,16 @@ struct PeerLobe {
 
   [[gnu::always_inline]] static void run(const Arguments& a) {
     using T = Lane<Real>;
-    const Real* const cos_i = a.g[Field::cos_i];
-    const Real* const cos_r = a.g[Field::cos_r];
-    const Real* const one_minus_cos_i = a.g[Field::one_minus_cos_i];
-    const Real* const one_minus_cos_r = a.g[Field::one_minus_cos_r];
-    const Real* const s_z = a.g[Field::s_z];
-    const Real* const s_h2 = a.g[Field::s_h2];
-    const Real* const tan2_b = a.g[Field::tan2_b];
-    const Real* const mirror_distance2 = a.g[Field::mirror_distance2];
+    // Fields that the model does not read are not there; the loads of their stand-in are dropped as unused.
+    const auto array = [&](Field f) -> const Real* { return a.g[f] != nullptr ? a.g[f] : a.t->shadowing.data(); };
+    const Real* const cos_i = array(Field::cos_i);
+    const Real* const cos_r = array(Field::cos_r);
+    const Real* const one_minus_cos_i = array(Field::one_minus_cos_i);
+    const Real* const one_minus_cos_r = array(Field::one_minus_cos_r);
+    const Real* const s_z = array(Field::s_z);
+    const Real* const s_h2 = array(Field::s_h2);
+    const Real* const tan2_b = array(Field::tan2_b);
+    const Real* const mirror_distance2 = array(Field::mirror_distance2);
     Real* const dd = a.t->dd.data();
     const T z = a.z;
     constexpr Real most = std::is_same_v<Real, float> ? Real(1e32) : Real(1e302);

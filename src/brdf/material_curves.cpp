@@ -17,7 +17,7 @@ constexpr double greatest_depth = 1000.0;
 using Function = std::function<double(double)>;
 
 std::optional<FittedPolynomial> fit(const Function& f, double upper, double tolerance, ErrorMeasure measure,
-                                    Arithmetic arithmetic) {
+                                    PolynomialArithmetic arithmetic) {
   return fit_polynomial(f, least_c, upper, tolerance, measure, block::most_coefficients, arithmetic);
 }
 
@@ -40,7 +40,7 @@ struct Reached {
 };
 
 std::optional<Reached> lit_curve(const ShapeSettings& s, double slope, double tail, double tolerance,
-                                 Arithmetic arithmetic) {
+                                 PolynomialArithmetic arithmetic) {
   Function f;
   double reach = 1.0 - 1e-12;
   if (s.shadowing == ShadowingTier::li_torrance) {
@@ -55,7 +55,7 @@ std::optional<Reached> lit_curve(const ShapeSettings& s, double slope, double ta
     f = [slope](double c) { return shadowing_schlick_over_cosine(slope, c); };
   } else {
     // S1 = 1 at every cosine that there is.
-    const double least = std::ldexp(1.0, arithmetic == Arithmetic::binary32 ? -60 : -200);
+    const double least = std::ldexp(1.0, arithmetic == PolynomialArithmetic::binary32 ? -60 : -200);
     return Reached{{1.0, 0.0, {1.0 / least}, 0.0}, least};
   }
   std::optional<FittedPolynomial> p = fit(f, reach, tolerance, ErrorMeasure::relative, arithmetic);
@@ -63,7 +63,8 @@ std::optional<Reached> lit_curve(const ShapeSettings& s, double slope, double ta
   return Reached{std::move(*p), reach};
 }
 
-std::optional<Reached> seen_curve(EffectiveRoughnessTier tier, double slope, double tolerance, Arithmetic arithmetic) {
+std::optional<Reached> seen_curve(EffectiveRoughnessTier tier, double slope, double tolerance,
+                                  PolynomialArithmetic arithmetic) {
   if (tier == EffectiveRoughnessTier::li_torrance) {
     // growth is its logarithm times q/5.
     const double power = 1.6 / slope;
@@ -82,7 +83,7 @@ std::optional<Reached> seen_curve(EffectiveRoughnessTier tier, double slope, dou
 }
 
 // ln(1 + W0(K²/8π)) of ln(1 + e K²/8π).
-std::optional<FittedPolynomial> growth_curve(double tolerance, Arithmetic arithmetic) {
+std::optional<FittedPolynomial> growth_curve(double tolerance, PolynomialArithmetic arithmetic) {
   constexpr double e = std::numbers::e;
   const double most = std::log1p(e * greatest_depth * greatest_depth / (8.0 * std::numbers::pi));
   return fit_polynomial([](double t) { return std::log1p(lambert_w0(std::expm1(t) / e)); }, 0.0, most, tolerance,
@@ -96,7 +97,7 @@ std::size_t VisibilityCurves::coefficients() const noexcept {
 }
 
 std::optional<VisibilityCurves> visibility_curves(const ShapeSettings& s, bool shadowed, double slope, double tail,
-                                                  double tolerance, Arithmetic arithmetic) {
+                                                  double tolerance, PolynomialArithmetic arithmetic) {
   using enum EffectiveRoughnessTier;
   const bool closed = s.shadowing == ShadowingTier::none || s.shadowing == ShadowingTier::schlick;
   if (s.anisotropic || (s.effective_roughness == none && (closed || !shadowed))) return std::nullopt;
@@ -121,12 +122,14 @@ std::optional<VisibilityCurves> visibility_curves(const ShapeSettings& s, bool s
   return curves;
 }
 
-std::optional<FittedPolynomial> reflection_curve(double n, double kappa, double tolerance, Arithmetic arithmetic) {
+std::optional<FittedPolynomial> reflection_curve(double n, double kappa, double tolerance,
+                                                 PolynomialArithmetic arithmetic) {
   return fit_polynomial([=](double u) { return fresnel_exact(n, kappa, u, 1.0 - u); }, 0.0, 1.0, tolerance,
                         ErrorMeasure::relative, block::most_coefficients, arithmetic);
 }
 
-std::optional<FittedPolynomial> transmission_curve(double n, double kappa, double tolerance, Arithmetic arithmetic) {
+std::optional<FittedPolynomial> transmission_curve(double n, double kappa, double tolerance,
+                                                   PolynomialArithmetic arithmetic) {
   return fit([=](double c) { return transmission_exact(n, kappa, c, 1.0 - c) / c; }, 1.0, tolerance,
              ErrorMeasure::relative, arithmetic);
 }

@@ -21,14 +21,14 @@ struct VisibilityCurves {
 /// they stand, or where polynomials of a reasonable length do not hold it (slopes of 0.5 and more at 1e-10).
 [[nodiscard]] std::optional<VisibilityCurves> visibility_curves(const ShapeSettings& settings, bool shadowed,
                                                                 double slope, double tail, double tolerance,
-                                                                Arithmetic arithmetic);
+                                                                PolynomialArithmetic arithmetic);
 /// Tier he's curve holds up to a hidden depth of 1000: nearer to the horizon than this it may be exceeded.
 inline constexpr double he_curve_horizon = 2e-3;
 
 /// F(u) and T(c)/c of tier exact, relative; nullopt where they do not hold the tolerance (total reflection has a kink).
 [[nodiscard]] std::optional<FittedPolynomial> reflection_curve(double n, double kappa, double tolerance,
-                                                               Arithmetic arithmetic);
+                                                               PolynomialArithmetic arithmetic);
 [[nodiscard]] std::optional<FittedPolynomial> transmission_curve(double n, double kappa, double tolerance,
-                                                                 Arithmetic arithmetic);
+                                                                 PolynomialArithmetic arithmetic);
 
 }  // namespace goniofit::batch

@@ -134,7 +134,8 @@ void SurfaceProgram<Out, Real>::plan_curves(double tolerance) {
   if (std::is_same_v<Real, float>) tolerance = std::max(tolerance, 2e-5);
   if (tolerance == 0.0 && !(wave_ && shape_.distribution == DistributionTier::he_torrance)) return;
   const double each = term_tolerance(tolerance, wave_);
-  constexpr auto arithmetic = std::is_same_v<Real, float> ? Arithmetic::binary32 : Arithmetic::binary64;
+  constexpr auto arithmetic =
+      std::is_same_v<Real, float> ? PolynomialArithmetic::binary32 : PolynomialArithmetic::binary64;
   for (ChannelPlan<Real>& p : plans_) {
     const double kappa = static_cast<double>(p.kappa);
     const double n = static_cast<double>(p.index);

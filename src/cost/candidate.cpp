@@ -41,7 +41,7 @@ std::vector<double> scalar_values(const Material& m, const DirectionBatch& d) {
   return out;
 }
 
-std::vector<double> values_at(const Candidate& c, const Material& m, const DirectionBatch& d) {
+std::vector<double> values_at(const EvaluationCandidate& c, const Material& m, const DirectionBatch& d) {
   switch (c.arithmetic) {
     case Arithmetic::batch_float:
       return batch_values<float>(m, c.compile, d);
@@ -54,7 +54,7 @@ std::vector<double> values_at(const Candidate& c, const Material& m, const Direc
 }
 
 // coh is k F S exp(-g)/(cos_i dOmega) within its cone.
-void add_coh(ModelValues& values, const Candidate& c, const ErrorSamples& samples) {
+void add_coh(ModelValues& values, const EvaluationCandidate& c, const ErrorSamples& samples) {
   Material coh = c.material;
   coh.components = {Effect::coh};
   const std::vector<double> height = values_at(c, coh, samples.mirrors);
@@ -66,7 +66,7 @@ void add_coh(ModelValues& values, const Candidate& c, const ErrorSamples& sample
 
 // A peer's mirror part, c/(cos_i dOmega) likewise, by the values of two solid angles: half of it is their difference.
 // For all else its cone is made so small that only the mirror direction itself is in it.
-ModelValues peer_values(const Candidate& c, const ErrorSamples& samples) {
+ModelValues peer_values(const EvaluationCandidate& c, const ErrorSamples& samples) {
   constexpr double no_cone_sr = 1e-24;
   ModelValues values{.channels = c.material.channels.size(), .f = {}, .mirror = {}, .mirror_energy = {}};
   Material m = c.material;
@@ -89,7 +89,7 @@ ModelValues peer_values(const Candidate& c, const ErrorSamples& samples) {
 }
 
 template <class Real>
-TimedTask batch_task(const Candidate& c, const DirectionBatch& pairs) {
+TimedTask batch_task(const EvaluationCandidate& c, const DirectionBatch& pairs) {
   const auto kernel = std::make_shared<const BatchEvaluator<Real>>(c.material, c.compile);
   const auto input = std::make_shared<const BasicDirectionBatch<Real>>(rounded<Real>(pairs));
   const auto out = std::make_shared<std::vector<Real>>(kernel->channels() * pairs.size());
@@ -100,7 +100,7 @@ TimedTask batch_task(const Candidate& c, const DirectionBatch& pairs) {
           static_cast<double>(out->size())};
 }
 
-TimedTask scalar_task(const Candidate& c, const DirectionBatch& pairs) {
+TimedTask scalar_task(const EvaluationCandidate& c, const DirectionBatch& pairs) {
   const auto evaluator = std::make_shared<const Evaluator>(c.material);
   const auto out = std::make_shared<std::vector<double>>(evaluator->channels() * pairs.size());
   return {[=, &pairs] {
@@ -120,7 +120,7 @@ std::string_view name_of(Arithmetic a) noexcept {
   return a == Arithmetic::batch_float ? "float" : a == Arithmetic::scalar ? "double, one by one" : "double";
 }
 
-ModelValues model_values(const Candidate& c, const ErrorSamples& samples) {
+ModelValues model_values(const EvaluationCandidate& c, const ErrorSamples& samples) {
   if (c.material.model != surface_model) return peer_values(c, samples);
   const std::size_t channels = c.material.channels.size();
   const std::size_t mirrors = samples.mirrors.size();
@@ -157,7 +157,7 @@ DirectionBatch random_pairs(std::size_t count, std::uint64_t seed) {
   return pairs;
 }
 
-TimedTask evaluation_task(const Candidate& c, const DirectionBatch& pairs) {
+TimedTask evaluation_task(const EvaluationCandidate& c, const DirectionBatch& pairs) {
   switch (c.arithmetic) {
     case Arithmetic::batch_float:
       return batch_task<float>(c, pairs);

@@ -19,7 +19,7 @@ enum class Arithmetic : std::uint8_t {
 };
 [[nodiscard]] std::string_view name_of(Arithmetic arithmetic) noexcept;
 
-struct Candidate {
+struct EvaluationCandidate {
   std::string name;
   Material material;
   CompileSettings compile{};
@@ -35,14 +35,14 @@ struct ModelValues {
   std::vector<double> mirror;         ///< 1/sr at the mirror directions, without coh
   std::vector<double> mirror_energy;  ///< k F S exp(-g)
 };
-[[nodiscard]] ModelValues model_values(const Candidate& candidate, const ErrorSamples& samples);
+[[nodiscard]] ModelValues model_values(const EvaluationCandidate& candidate, const ErrorSamples& samples);
 
 /// `count` pairs of directions, each uniform over the part of the hemisphere within 85° of the normal.
 [[nodiscard]] DirectionBatch random_pairs(std::size_t count, std::uint64_t seed);
 
 /// Evaluates the candidate at all pairs, from unit vectors on: geometry is part of the time. One evaluation is one pair
 /// in one channel. The task keeps what it needs but the pairs, which must outlive it.
-[[nodiscard]] TimedTask evaluation_task(const Candidate& candidate, const DirectionBatch& pairs);
+[[nodiscard]] TimedTask evaluation_task(const EvaluationCandidate& candidate, const DirectionBatch& pairs);
 
 /// The material with its first channel alone.
 [[nodiscard]] Material first_channel_of(Material material);

@@ -41,7 +41,7 @@ Scan reference_scan(const Material& reference, std::uint64_t seed) {
   ErrorSettings settings = fitted_directions;
   settings.seed = seed;
   const ErrorSamples s = error_samples(reference, {}, settings);
-  const Candidate exact{.name = "reference", .material = reference};
+  const EvaluationCandidate exact{.name = "reference", .material = reference};
   const ModelValues values = model_values(exact, s);
   const std::vector<std::size_t> rows = outside_cones(s);
   const std::size_t mirrors = s.mirrors.size();
@@ -94,7 +94,7 @@ std::vector<std::string> peers_for(const Material& material) {
   return names;
 }
 
-Candidate fitted_peer(const std::string& model, const Scan& scan, const Material& reference) {
+EvaluationCandidate fitted_peer(const std::string& model, const Scan& scan, const Material& reference) {
   FitSettings settings;
   settings.model = model;
   const bool by_reflectance = std::any_of(reference.channels.begin(), reference.channels.end(),

@@ -27,6 +27,6 @@ namespace goniofit {
 [[nodiscard]] std::vector<std::string> peers_for(const Material& material);
 
 /// The peer of that name fitted to the scan of the reference. Its Fresnel term is Schlick's, as the published model's.
-[[nodiscard]] Candidate fitted_peer(const std::string& model, const Scan& scan, const Material& reference);
+[[nodiscard]] EvaluationCandidate fitted_peer(const std::string& model, const Scan& scan, const Material& reference);
 
 }  // namespace goniofit

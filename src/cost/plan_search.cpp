@@ -70,7 +70,7 @@ PlanSearch::PlanSearch(Material reference, const Terms& given, const Domain& dom
   for (const RoughForm form : {RoughForm::integral, RoughForm::functional, RoughForm::qualitative}) {
     if (form >= reference_.forms.rough) rough_.push_back(form);
   }
-  const Candidate exact{.name = "reference", .material = material(this->reference())};
+  const EvaluationCandidate exact{.name = "reference", .material = material(this->reference())};
   exact_ = model_values(exact, samples_);
 }
 
@@ -119,7 +119,8 @@ const ModelValues& PlanSearch::part(Effect effect, const PlanChoice& choice) {
   const Key key{effect, t.fresnel, t.shadowing, t.effective_roughness, t.distribution, alone.rough};
   const auto found = parts_.find(key);
   if (found != parts_.end()) return found->second;
-  const Candidate candidate{.name = std::string(name_of(effect)), .material = material(alone), .compile = compile_};
+  const EvaluationCandidate candidate{
+      .name = std::string(name_of(effect)), .material = material(alone), .compile = compile_};
   return parts_.emplace(key, model_values(candidate, samples_)).first->second;
 }
 

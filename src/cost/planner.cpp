@@ -60,7 +60,7 @@ class Clock {
   [[nodiscard]] std::vector<Timing> time(const std::vector<Material>& materials, std::size_t rounds) const {
     std::vector<TimedTask> tasks;
     for (const Material& m : materials) {
-      Candidate c{.name = {}, .material = m, .compile = settings_.compile};
+      EvaluationCandidate c{.name = {}, .material = m, .compile = settings_.compile};
       c.material.channels.clear();
       for (const std::size_t i : channels_) c.material.channels.push_back(m.channels[i]);
       tasks.push_back(evaluation_task(c, pairs_));

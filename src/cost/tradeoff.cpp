@@ -27,7 +27,7 @@ constexpr std::array group_names{Named<TradeoffGroup>{TradeoffGroup::model, "mod
                                  Named<TradeoffGroup>{TradeoffGroup::effects, "effects"},
                                  Named<TradeoffGroup>{TradeoffGroup::fit, "fit"}};
 
-TradeoffRow row_of(const tradeoff::Table& table, const Candidate& c) {
+TradeoffRow row_of(const tradeoff::Table& table, const EvaluationCandidate& c) {
   TradeoffRow row{.group = table.group,
                   .name = c.name,
                   .material = table.material,
@@ -48,7 +48,7 @@ TradeoffRow row_of(const tradeoff::Table& table, const Candidate& c) {
 // Slow candidates (the series, the integral over grooves) get fewer pairs, so that a measurement fits between two
 // interruptions of a busy machine.
 constexpr double longest_seconds = 0.002;
-std::size_t affordable(const Candidate& c, std::size_t pairs) {
+std::size_t affordable(const EvaluationCandidate& c, std::size_t pairs) {
   constexpr std::size_t tried = 32;
   const DirectionBatch few = random_pairs(tried, 0);
   const TimedTask task = evaluation_task(c, few);
@@ -63,14 +63,14 @@ class Tasks {
  public:
   Tasks(const tradeoff::Table& table, const TradeoffSettings& settings) : all_channels_(table.candidates.size()) {
     std::vector<std::size_t> pairs;
-    for (const Candidate& c : table.candidates) {
-      Candidate one = c;
+    for (const EvaluationCandidate& c : table.candidates) {
+      EvaluationCandidate one = c;
       one.material = first_channel_of(c.material);
       pairs.push_back(affordable(one, settings.pairs));
       add(one, pairs.back(), settings.seed);
     }
     for (std::size_t i = 0; i < table.candidates.size(); ++i) {
-      const Candidate& c = table.candidates[i];
+      const EvaluationCandidate& c = table.candidates[i];
       if (!table.all_channels || pairs[i] < settings.pairs || c.material.channels.size() == 1) continue;
       all_channels_[i] = tasks_.size();
       add(c, pairs[i], settings.seed);
@@ -88,7 +88,7 @@ class Tasks {
   }
 
  private:
-  void add(const Candidate& c, std::size_t pairs, std::uint64_t seed) {
+  void add(const EvaluationCandidate& c, std::size_t pairs, std::uint64_t seed) {
     batches_.push_back(std::make_unique<const DirectionBatch>(random_pairs(pairs, seed)));
     tasks_.push_back(evaluation_task(c, *batches_.back()));
   }
@@ -127,12 +127,12 @@ namespace tradeoff {
 
 Rows timed(const Table& table, const TradeoffSettings& settings) {
   Rows rows;
-  for (const Candidate& c : table.candidates) rows.push_back(row_of(table, c));
+  for (const EvaluationCandidate& c : table.candidates) rows.push_back(row_of(table, c));
   Tasks(table, settings).time(table, settings, rows);
   return rows;
 }
 
-Rows measured(const Table& table, const Candidate& exact, const ErrorSamples& samples,
+Rows measured(const Table& table, const EvaluationCandidate& exact, const ErrorSamples& samples,
               const TradeoffSettings& settings) {
   Rows rows = timed(table, settings);
   const ModelValues reference = model_values(exact, samples);

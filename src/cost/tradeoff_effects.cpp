@@ -37,10 +37,10 @@ bool is_paper_sample(const Material& m) {
 Rows effect_rows(const Material& material, const TradeoffSettings& s) {
   Material full = is_paper_sample(material) ? with_five_effects(material) : material;
   full.terms = published_terms(material);
-  const Candidate exact{.name = effects_text(full.components), .material = full};
+  const EvaluationCandidate exact{.name = effects_text(full.components), .material = full};
   Table table{.group = TradeoffGroup::effects, .material = material.name, .reference = exact.name};
   for (const EffectSet effects : subsets_of(acting_effects(full))) {
-    Candidate c{.name = effects_text(effects), .material = full, .compile = {.instructions = s.instructions}};
+    EvaluationCandidate c{.name = effects_text(effects), .material = full, .compile = {.instructions = s.instructions}};
     c.material.components = effects;
     if (full.components != material.components) c.note = added_note;
     table.candidates.push_back(std::move(c));
@@ -59,11 +59,12 @@ Rows oren_nayar_rows(const Material& material, const TradeoffSettings& s) {
   }
   rough.components = {Effect::rough};
   rough.forms.rough = RoughForm::integral;
-  const Candidate exact{.name = "integral", .material = rough};
+  const EvaluationCandidate exact{.name = "integral", .material = rough};
   Table table{.group = TradeoffGroup::oren_nayar, .material = material.name, .reference = "integral over V-cavities"};
   if (!has_grooves) table.material = "matte grooves, facet slope 30 degrees, rho 0.9";
   for (const RoughForm form : {RoughForm::integral, RoughForm::functional, RoughForm::qualitative}) {
-    Candidate c{.name = std::string(name_of(form)), .material = rough, .compile = {.instructions = s.instructions}};
+    EvaluationCandidate c{
+        .name = std::string(name_of(form)), .material = rough, .compile = {.instructions = s.instructions}};
     c.material.forms.rough = form;
     table.candidates.push_back(std::move(c));
   }

@@ -95,7 +95,8 @@ Rows fit_rows(const Material& material, const TradeoffSettings& s, const Note& n
     note(material.name + ", fitting " + set.name);
     const FitSettings settings = settings_for(material, set.terms);
     fits.push_back(fit(scan, settings));
-    Candidate c{.name = set.name, .material = fits.back().material, .compile = {.instructions = s.instructions}};
+    EvaluationCandidate c{
+        .name = set.name, .material = fits.back().material, .compile = {.instructions = s.instructions}};
     c.material.fit.reset();
     table.candidates.push_back(std::move(c));
     tasks.push_back({[&scan, settings] {
@@ -107,7 +108,7 @@ Rows fit_rows(const Material& material, const TradeoffSettings& s, const Note& n
   const TimingSettings few{
       .rounds = s.timing.rounds < 5 ? std::size_t{1} : std::size_t{5}, .least_seconds = 0.0, .seed = s.seed};
   const std::vector<Timing> times = time_interleaved(tasks, 0, few);
-  const Candidate exact{.name = reference.name, .material = reference.material};
+  const EvaluationCandidate exact{.name = reference.name, .material = reference.material};
   Rows rows = measured(table, exact, error_samples(reference.material, {}, s.errors), s);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     rows[i].fit = figures_of(fits[i], times[i], *material.surface.slope);

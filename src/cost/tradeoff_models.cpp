@@ -11,15 +11,15 @@ namespace {
 
 constexpr double loose = 1e-4;
 
-Candidate with_terms(std::string name, const Material& m, const Terms& terms, const TradeoffSettings& s) {
-  Candidate c{.name = std::move(name), .material = m, .compile = {.instructions = s.instructions}};
+EvaluationCandidate with_terms(std::string name, const Material& m, const Terms& terms, const TradeoffSettings& s) {
+  EvaluationCandidate c{.name = std::move(name), .material = m, .compile = {.instructions = s.instructions}};
   c.material.terms = terms;
   return c;
 }
 
 // The same kernel with terms good to 1e-4, and both in single precision.
-void add_variants(std::vector<Candidate>& to, const Candidate& c) {
-  Candidate variant = c;
+void add_variants(std::vector<EvaluationCandidate>& to, const EvaluationCandidate& c) {
+  EvaluationCandidate variant = c;
   variant.name = c.name + ", terms to 1e-4";
   variant.compile.tolerance = loose;
   to.push_back(variant);
@@ -31,7 +31,7 @@ void add_variants(std::vector<Candidate>& to, const Candidate& c) {
   to.push_back(variant);
 }
 
-void add_scalar(std::vector<Candidate>& to, Candidate c) {
+void add_scalar(std::vector<EvaluationCandidate>& to, EvaluationCandidate c) {
   c.name += ", one by one";
   c.arithmetic = Arithmetic::scalar;
   to.push_back(std::move(c));
@@ -44,21 +44,22 @@ Rows model_rows(const Material& material, const TradeoffSettings& s, const Note&
   const Reference fast = reference_of(material, WaveOptics::fast);
   Table table{
       .group = TradeoffGroup::model, .material = material.name, .reference = reference.name, .all_channels = true};
-  std::vector<Candidate>& list = table.candidates;
-  const Candidate lt = with_terms("li-torrance", material, published_terms(material), s);
+  std::vector<EvaluationCandidate>& list = table.candidates;
+  const EvaluationCandidate lt = with_terms("li-torrance", material, published_terms(material), s);
   list = {lt};
   add_variants(list, lt);
-  Candidate shortcut = lt;
+  EvaluationCandidate shortcut = lt;
   shortcut.name += ", S = 1 shortcut";
   shortcut.compile.shadowing_shortcut = true;
   list.push_back(shortcut);
   add_scalar(list, lt);
   const bool wave_optics = reference.material.terms.distribution == DistributionTier::he_torrance_series;
-  const Candidate he = with_terms(wave_optics ? "he-torrance" : "exact terms", material, fast.material.terms, s);
+  const EvaluationCandidate he =
+      with_terms(wave_optics ? "he-torrance" : "exact terms", material, fast.material.terms, s);
   list.push_back(he);
   add_variants(list, he);
   add_scalar(list, he);
-  const Candidate exact = with_terms("he-torrance-series", material, reference.material.terms, s);
+  const EvaluationCandidate exact = with_terms("he-torrance-series", material, reference.material.terms, s);
   if (wave_optics) list.push_back(exact);
 
   const Scan scan = reference_scan(fast.material, s.seed + 1);

@@ -19,12 +19,12 @@ struct Table {
   TradeoffGroup group{};
   std::string material, reference;
   std::size_t baseline = 0;  ///< the candidate that ratios are over
-  std::vector<Candidate> candidates{};
+  std::vector<EvaluationCandidate> candidates{};
   bool all_channels = false;  ///< also the time of all channels together
 };
 
 /// Times the candidates in turn, and measures each against `exact`.
-[[nodiscard]] Rows measured(const Table& table, const Candidate& exact, const ErrorSamples& samples,
+[[nodiscard]] Rows measured(const Table& table, const EvaluationCandidate& exact, const ErrorSamples& samples,
                             const TradeoffSettings& settings);
 /// Errors of them all left at 0.
 [[nodiscard]] Rows timed(const Table& table, const TradeoffSettings& settings);

@@ -24,7 +24,7 @@ Material dd_of(const Material& material) {
   return m;
 }
 
-Candidate tier(std::string name, const Material& m, const TradeoffSettings& s) {
+EvaluationCandidate tier(std::string name, const Material& m, const TradeoffSettings& s) {
   return {.name = std::move(name), .material = m, .compile = {.instructions = s.instructions}};
 }
 
@@ -104,7 +104,7 @@ Tier roughness_tier(EffectiveRoughnessTier t, double slope) {
 struct Ladder {
   Table table;
   std::vector<Tier> tiers;
-  void add(Candidate c, Tier t) {
+  void add(EvaluationCandidate c, Tier t) {
     table.candidates.push_back(std::move(c));
     tiers.push_back(std::move(t));
   }
@@ -128,7 +128,7 @@ void add_shadowing(Ladder& ladder, const Material& dd, const TradeoffSettings& s
     m.terms.shadowing = t;
     ladder.add(tier(std::string(name_of(t)), m, s), shadowing_tier(t, false, slope));
   }
-  Candidate shortcut = tier("li-torrance, S = 1 shortcut", dd, s);
+  EvaluationCandidate shortcut = tier("li-torrance, S = 1 shortcut", dd, s);
   shortcut.compile.shadowing_shortcut = true;
   ladder.add(std::move(shortcut), shadowing_tier(ShadowingTier::li_torrance, true, slope));
 }
@@ -159,7 +159,7 @@ Rows ladder_rows(const Ladder& ladder, const TradeoffSettings& s) {
 
 // The tail that comes nearest to the lobe of dd, all else held; the longest that a fit tries where it is no better than
 // none at all.
-Candidate long_tailed(const Material& exact, const TradeoffSettings& s) {
+EvaluationCandidate long_tailed(const Material& exact, const TradeoffSettings& s) {
   FitSettings settings;
   settings.components = EffectSet{Effect::dd};
   settings.terms = exact.terms;
@@ -169,7 +169,7 @@ Candidate long_tailed(const Material& exact, const TradeoffSettings& s) {
     if (c.f0) settings.f0.push_back(*c.f0);
     settings.parameters[c.name + ".k_dd"] = {c.coefficient(Coefficient::k_dd), {}, {}};
   }
-  Candidate c = tier("student-t", l1_fit(reference_scan(exact, s.seed + 1), settings), s);
+  EvaluationCandidate c = tier("student-t", l1_fit(reference_scan(exact, s.seed + 1), settings), s);
   std::optional<double>& tail = c.material.surface.tail;
   if (!tail) tail = tail_max;
   c.note = "student-t: tail " + shortest(std::round(10.0 * *tail) / 10.0);
@@ -183,11 +183,11 @@ Rows distribution_rows(const Material& dd, const TradeoffSettings& s) {
   Table table{.group = TradeoffGroup::distribution, .material = dd.name, .reference = "he-torrance-series"};
   for (const DistributionTier t :
        {DistributionTier::he_torrance_series, DistributionTier::he_torrance, DistributionTier::rough_limit}) {
-    Candidate c = tier(std::string(name_of(t)), dd, s);
+    EvaluationCandidate c = tier(std::string(name_of(t)), dd, s);
     c.material.terms.distribution = t;
     table.candidates.push_back(std::move(c));
   }
-  const Candidate exact = table.candidates[0];
+  const EvaluationCandidate exact = table.candidates[0];
   table.candidates.push_back(long_tailed(table.candidates[1].material, s));
   table.baseline = 2;
   return measured(table, exact, error_samples(table.candidates[1].material, {}, s.errors), s);

@@ -79,12 +79,12 @@ std::string terminal(bool png, const Layout& layout) {
       png_scale);
 }
 
-struct Range {
+struct ValueRange {
   double low, high;
 };
 
 // The readings decide; a curve may rise above them (a mirror spike between two readings) by a factor 20 and no more.
-Range value_range(const PlotPlan& plan, double curve_highest) {
+ValueRange value_range(const PlotPlan& plan, double curve_highest) {
   if (plan.log) {
     const double high = std::max(plan.highest, std::min(curve_highest, 20.0 * plan.highest));
     return {0.6 * plan.lowest, 2.0 * high};
@@ -132,7 +132,7 @@ Curve curve_of(const Evaluator& evaluator, const PlotPlan& plan, std::size_t cha
   return curve;
 }
 
-std::string curve_block(const Curve& curve, const Range& range, bool log, std::size_t channel, std::size_t incidence) {
+std::string curve_block(const Curve& curve, const ValueRange& range, bool log, std::size_t channel, std::size_t incidence) {
   // Beyond the frame the exact value does not matter, and neither 0 nor 1e300 has a place on a log axis.
   const double low = log ? 1e-2 * range.low : range.low - (range.high - range.low);
   const double high = log ? 1e2 * range.high : range.high + (range.high - range.low);
@@ -198,7 +198,7 @@ std::string remarks(const PlotPlan& plan) {
   return text;
 }
 
-std::string frame_commands(const Layout& layout, const PlotPlan& plan, const Range& range) {
+std::string frame_commands(const Layout& layout, const PlotPlan& plan, const ValueRange& range) {
   std::string out = fmt::format("set xrange [{:.6g}:{:.6g}]\nset yrange [{:.6g}:{:.6g}]\n", plan.theta_min_deg,
                                 plan.theta_max_deg, range.low, range.high);
   out += fmt::format("set xtics {} nomirror out\nset mxtics {}\nset ytics nomirror out\n",
@@ -296,7 +296,7 @@ std::string script_of(bool png, const Scan& scan, const Material& material, cons
       highest = std::max(highest, *std::max_element(curves.back().values.begin(), curves.back().values.end()));
     }
   }
-  const Range range = value_range(plan, highest);
+  const ValueRange range = value_range(plan, highest);
   std::string script = "set encoding utf8\n" + terminal(png, layout);
   auto curve = curves.cbegin();
   for (const std::size_t channel : plan.channels) {

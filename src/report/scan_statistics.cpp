@@ -70,7 +70,7 @@ double written_theta_r(const Scan& scan, std::size_t row) {
   return retro ? -scan.theta_r_deg[row] : scan.theta_r_deg[row];
 }
 
-void widen(Range& range, double value) { range = {std::min(range.min, value), std::max(range.max, value)}; }
+void widen(ValueRange& range, double value) { range = {std::min(range.min, value), std::max(range.max, value)}; }
 
 std::vector<IncidenceStatistics> incidence_statistics(const Scan& scan) {
   std::map<std::int64_t, IncidenceStatistics> by_angle;
@@ -119,7 +119,7 @@ void count_sides(const Scan& scan, ScanStatistics& out) {
   }
 }
 
-Range range_of(const std::vector<double>& values) {
+ValueRange range_of(const std::vector<double>& values) {
   const auto [min, max] = std::minmax_element(values.begin(), values.end());
   return {*min, *max};
 }

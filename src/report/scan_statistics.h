@@ -10,7 +10,7 @@
 
 namespace goniofit {
 
-struct Range {
+struct ValueRange {
   double min = 0.0, max = 0.0;
 };
 
@@ -18,7 +18,7 @@ struct Range {
 struct IncidenceStatistics {
   double theta_i_deg = 0.0;
   std::size_t readings = 0;
-  Range theta_r_deg;                ///< signed in an incidence-plane scan
+  ValueRange theta_r_deg;                ///< signed in an incidence-plane scan
   double nearest_mirror_deg = 0.0;  ///< angle between the mirror direction and the reading next to it
   double nearest_retro_deg = 0.0;
 };
@@ -26,11 +26,11 @@ struct IncidenceStatistics {
 /// Of ratios: the middle and the range that holds nine of ten.
 struct RatioStatistics {
   double median = 1.0;
-  Range inner_90;
+  ValueRange inner_90;
 };
 
 struct ChannelStatistics {
-  Range value;
+  ValueRange value;
   double median = 0.0;
   std::size_t negative = 0, zero = 0;
   std::optional<double> relative_u;  ///< median of u / value where the value is above 0; none without uncertainties
@@ -46,7 +46,7 @@ struct AzimuthGap {
 };
 
 struct ScanStatistics {
-  Range theta_i_deg, theta_r_deg;               ///< theta_r signed in an incidence-plane scan
+  ValueRange theta_i_deg, theta_r_deg;               ///< theta_r signed in an incidence-plane scan
   std::vector<IncidenceStatistics> incidences;  ///< ascending
   std::vector<ChannelStatistics> channels;      ///< as in the scan
   std::size_t at_horizon = 0;                   ///< theta_i or theta_r exactly 90°: left out of fits

@@ -20,7 +20,7 @@ constexpr std::size_t label_width = 14;
 constexpr std::size_t most_incidences = 24;
 
 std::string angle(double degrees) { return fmt::format("{:.6g}°", degrees == 0.0 ? 0.0 : degrees); }
-std::string angles(const Range& range) { return angle(range.min) + " to " + angle(range.max); }
+std::string angles(const ValueRange& range) { return angle(range.min) + " to " + angle(range.max); }
 std::string count_text(std::size_t count, const char* one, const char* many) {
   return fmt::format("{} {}", count, count == 1 ? one : many);
 }

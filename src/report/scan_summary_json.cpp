@@ -10,7 +10,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json range_json(const Range& range) { return Json::array({range.min, range.max}); }
+Json range_json(const ValueRange& range) { return Json::array({range.min, range.max}); }
 
 template <class T>
 Json value_or_null(const std::optional<T>& value) {

@@ -26,7 +26,7 @@ constexpr double label_pixels = 11.0;
 constexpr const char* front_color = "#0072B2";
 constexpr const char* other_color = "#707070";
 
-struct Range {
+struct ValueRange {
   double low, high;
 };
 
@@ -55,8 +55,8 @@ std::vector<Rows> panels_of(const Tradeoff& t) {
 }
 
 // The same axes in all panels, whole decades of error.
-Range time_range(const std::vector<Rows>& panels) {
-  Range r{1e300, 0.0};
+ValueRange time_range(const std::vector<Rows>& panels) {
+  ValueRange r{1e300, 0.0};
   for (const Rows& rows : panels) {
     for (const TradeoffRow* row : rows) {
       r.low = std::min(r.low, row->time.median_ns);
@@ -65,7 +65,7 @@ Range time_range(const std::vector<Rows>& panels) {
   }
   return {r.low / 1.6, r.high * 2.0};
 }
-Range error_range(const std::vector<Rows>& panels) {
+ValueRange error_range(const std::vector<Rows>& panels) {
   double low = 1.0;
   double high = 0.0;
   for (const Rows& rows : panels) {
@@ -78,7 +78,7 @@ Range error_range(const std::vector<Rows>& panels) {
 }
 
 struct Axes {
-  Range ns, error;
+  ValueRange ns, error;
   double width, height;
   [[nodiscard]] double x(double value) const { return width * std::log(value / ns.low) / std::log(ns.high / ns.low); }
   [[nodiscard]] double y(double value) const {

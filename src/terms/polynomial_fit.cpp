@@ -53,13 +53,13 @@ double evaluate(const FittedPolynomial& p, double x) noexcept {
 }
 
 double error_of(const FittedPolynomial& p, const std::function<double(double)>& f, double lower, double upper,
-                ErrorMeasure measure, Arithmetic arithmetic) {
+                ErrorMeasure measure, PolynomialArithmetic arithmetic) {
   double worst = 0.0;
   const std::size_t points = 10 * p.c.size();
   for (std::size_t i = 0; i <= points; ++i) {
     const double x = lower + (upper - lower) * static_cast<double>(i) / static_cast<double>(points);
     const double truth = f(x);
-    const double value = arithmetic == Arithmetic::binary32 ? evaluate<float>(p, x) : evaluate<double>(p, x);
+    const double value = arithmetic == PolynomialArithmetic::binary32 ? evaluate<float>(p, x) : evaluate<double>(p, x);
     const double error = std::fabs(value - truth) / (measure == ErrorMeasure::relative ? std::fabs(truth) : 1.0);
     worst = std::isfinite(error) ? std::fmax(worst, error) : std::numeric_limits<double>::infinity();
   }
@@ -72,7 +72,7 @@ double FittedPolynomial::operator()(double x) const noexcept { return evaluate<d
 
 std::optional<FittedPolynomial> fit_polynomial(const std::function<double(double)>& f, double lower, double upper,
                                                double tolerance, ErrorMeasure measure, std::size_t most,
-                                               Arithmetic arithmetic) {
+                                               PolynomialArithmetic arithmetic) {
   const std::vector<double> chebyshev = chebyshev_coefficients(f, lower, upper, most + most / 2);
   for (std::size_t n = 4; n <= most; n += 4) {
     FittedPolynomial p{2.0 / (upper - lower), -(upper + lower) / (upper - lower), powers(chebyshev, n), 0.0};

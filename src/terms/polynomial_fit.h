@@ -20,13 +20,13 @@ struct FittedPolynomial {
 
 enum class ErrorMeasure { relative, absolute };
 /// What the polynomial will be evaluated in: many coefficients leave few digits of single precision.
-enum class Arithmetic { binary64, binary32 };
+enum class PolynomialArithmetic { binary64, binary32 };
 
 /// Interpolates at Chebyshev points, with as many coefficients as keep the error within the tolerance on a grid of ten
 /// points a coefficient, powers' own rounding included; nullopt where `most` coefficients do not. Relative: f is to
 /// have no zero on [lower, upper].
 [[nodiscard]] std::optional<FittedPolynomial> fit_polynomial(const std::function<double(double)>& f, double lower,
                                                              double upper, double tolerance, ErrorMeasure measure,
-                                                             std::size_t most, Arithmetic arithmetic);
+                                                             std::size_t most, PolynomialArithmetic arithmetic);
 
 }  // namespace goniofit

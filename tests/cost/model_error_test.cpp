@@ -158,8 +158,8 @@ TEST(ModelError, TheBoundKnowsTheSpreadOfTheEstimates) {
 TEST(ModelError, SinglePrecisionIsNearDouble) {
   const Material m = reference_of(garnet_red_paint_13(), WaveOptics::fast).material;
   const ErrorSamples s = error_samples(m, {}, {.incidences = 5, .directions = 200});
-  const Candidate in_double{.name = "d", .material = m};
-  Candidate in_float = in_double;
+  const EvaluationCandidate in_double{.name = "d", .material = m};
+  EvaluationCandidate in_float = in_double;
   in_float.arithmetic = Arithmetic::batch_float;
   const ModelError e = model_error(s, model_values(in_double, s), model_values(in_float, s));
   EXPECT_GT(e.l1, 0.0) << "it is another arithmetic";

@@ -21,7 +21,8 @@ double worst_eps(const F& f, const Truth& truth, double low, double high, bool l
   double worst = 0.0;
   for (int i = 0; i < 100000; ++i) {
     const double u = unit(random);
-    const double x = logarithmic ? low * std::exp(u * (std::log(high) - std::log(low))) : low + (high - low) * u;
+    const double x =
+        logarithmic ? std::exp(std::log(low) + u * (std::log(high) - std::log(low))) : low + (high - low) * u;
     const auto rounded = static_cast<Real>(x);
     const auto want = truth(static_cast<long double>(rounded));
     const auto got = static_cast<long double>(f(Lane<Real>(rounded)).v);

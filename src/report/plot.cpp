@@ -132,7 +132,8 @@ Curve curve_of(const Evaluator& evaluator, const PlotPlan& plan, std::size_t cha
   return curve;
 }
 
-std::string curve_block(const Curve& curve, const ValueRange& range, bool log, std::size_t channel, std::size_t incidence) {
+std::string curve_block(const Curve& curve, const ValueRange& range, bool log, std::size_t channel,
+                        std::size_t incidence) {
   // Beyond the frame the exact value does not matter, and neither 0 nor 1e300 has a place on a log axis.
   const double low = log ? 1e-2 * range.low : range.low - (range.high - range.low);
   const double high = log ? 1e2 * range.high : range.high + (range.high - range.low);

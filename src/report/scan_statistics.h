@@ -18,7 +18,7 @@ struct ValueRange {
 struct IncidenceStatistics {
   double theta_i_deg = 0.0;
   std::size_t readings = 0;
-  ValueRange theta_r_deg;                ///< signed in an incidence-plane scan
+  ValueRange theta_r_deg;           ///< signed in an incidence-plane scan
   double nearest_mirror_deg = 0.0;  ///< angle between the mirror direction and the reading next to it
   double nearest_retro_deg = 0.0;
 };
@@ -46,7 +46,7 @@ struct AzimuthGap {
 };
 
 struct ScanStatistics {
-  ValueRange theta_i_deg, theta_r_deg;               ///< theta_r signed in an incidence-plane scan
+  ValueRange theta_i_deg, theta_r_deg;          ///< theta_r signed in an incidence-plane scan
   std::vector<IncidenceStatistics> incidences;  ///< ascending
   std::vector<ChannelStatistics> channels;      ///< as in the scan
   std::size_t at_horizon = 0;                   ///< theta_i or theta_r exactly 90°: left out of fits

@@ -245,8 +245,8 @@ void SurfaceProgram<Out, Real>::run_visibility(const Source& source, std::size_t
   }
   if (!curves_) return;
   const SharedCurves& c = *curves_;
-  c.loop(
-      {w.geometry, &w.terms, n, &c.lit, &c.seen, &c.growth, c.lit_reach, c.seen_reach, Real(1) / slope_, log_slope_});
+  c.loop({w.geometry, &w.terms, whole_vectors(n), &c.lit, &c.seen, &c.growth, c.lit_reach, c.seen_reach,
+          Real(1) / slope_, log_slope_});
   if (shape_.effective_roughness != EffectiveRoughnessTier::he) return;
   const Real* const cos_i = w.geometry[Field::cos_i];
   const Real* const cos_r = w.geometry[Field::cos_r];
@@ -283,8 +283,9 @@ void SurfaceProgram<Out, Real>::run_shapes_by_pair(const Source& source, std::si
                                     .tail = surface.tail.value_or(2.0),
                                     .log_sigma = log_sigma_};
   constexpr double most = most_value<Real>;
+  std::fill(w.terms.dd.begin(), w.terms.dd.end(), Real(0));
+  std::fill(w.terms.fs.begin(), w.terms.fs.end(), Real(0));
   for (std::size_t k = 0; k < n; ++k) {
-    w.terms.dd[k] = w.terms.fs[k] = Real(0);
     const Pair p = source.pair(first + k);
     if (!(p.cos_i > 0.0) || !(p.cos_r > 0.0)) continue;
     const SurfaceTerms<double> t = surface_terms(shape_, s, p);
@@ -331,8 +332,8 @@ void SurfaceProgram<Out, Real>::run_channel(const Source& source, std::size_t ch
     }
   }
   if (p.new_optics) run_optics(p, n, w);
-  combine_[channel](
-      {w.geometry, &w.terms, n, p.mirror_0, p.mirror_1, p.below_0, p.below_1, p.diffuse, most_value<Real>, out});
+  combine_[channel]({w.geometry, &w.terms, whole_vectors(n), p.mirror_0, p.mirror_1, p.below_0, p.below_1, p.diffuse,
+                     most_value<Real>, out});
   if (p.rough) {
     const Real scale = p.rho / Real(pi);
     for (std::size_t k = 0; k < n; ++k) {

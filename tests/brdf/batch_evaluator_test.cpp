@@ -226,6 +226,25 @@ TEST_P(EveryInstructionSet, PlaceInTheBatchDoesNotMatter) {
   }
 }
 
+// Nothing that an earlier evaluation left behind reaches a later one.
+TEST(BatchEvaluator, ValuesDoNotDependOnWhatWasEvaluatedBefore) {
+  test::Draw draw(5);
+  const Batch batch = corners(draw, 259);
+  Material m = test::laser_paper_73();
+  m.terms = test::he_torrance_terms();
+  const BatchEvaluator<double> compiled(m);
+  std::vector<double> first(3 * 259);
+  std::vector<double> again(first);
+  compiled.values(batch.directions, first);
+  const Batch other = corners(draw, 256);
+  for (const Material& before : {test::smooth_aluminium_45(), test::rough_plaster(), test::ground_glass_41()}) {
+    std::vector<double> ignored(256 * before.channels.size());
+    BatchEvaluator<double>(before).values(other.directions, ignored);
+    compiled.values(batch.directions, again);
+    EXPECT_EQ(again, first);
+  }
+}
+
 TEST(BatchEvaluator, ChannelsStandOneAfterTheOther) {
   const Material m = test::garnet_red_paint_13();
   const Batch batch(hemisphere_sampling(false));

@@ -8,10 +8,6 @@ namespace goniofit::block {
 
 namespace {
 
-// A shape factor no longer a number of its type is infinite, and infinity times an F of 0 is none.
-template <class Real>
-constexpr Real most_shape = std::is_same_v<Real, float> ? Real(1e32) : Real(1e302);
-
 template <class T>
 [[gnu::always_inline]] inline T normalisation(T tan2_b) {
   const T sec2 = 1.0 + tan2_b;

@@ -16,6 +16,10 @@ namespace goniofit::block {
 template <class Arguments>
 using Loop = void (*)(const Arguments&);
 
+/// A shape factor no longer a number of its type is infinite, and infinity times an F of 0 is none.
+template <class Real>
+inline constexpr Real most_shape = std::is_same_v<Real, float> ? Real(1e32) : Real(1e302);
+
 /// shadowing, growth and inverse_m_e2, each where the tiers have something to say of it.
 template <class Real>
 struct VisibilityArguments {

@@ -30,7 +30,6 @@ struct PeerLobe {
     const Real* const mirror_distance2 = array(Field::mirror_distance2);
     Real* const dd = a.t->dd.data();
     const T z = a.z;
-    constexpr Real most = std::is_same_v<Real, float> ? Real(1e32) : Real(1e302);
     const std::size_t n = a.n;
 #pragma GCC ivdep
     for (std::size_t k = 0; k < n; ++k) {
@@ -45,7 +44,7 @@ struct PeerLobe {
       p.mirror_distance2 = mirror_distance2[k];
       std::array<T, 2> values{};
       Model::template factors<T>(p, &z, values.data());
-      dd[k] = lane::at_most(most, values[1].v);
+      dd[k] = lane::at_most(most_shape<Real>, values[1].v);
     }
   }
 };

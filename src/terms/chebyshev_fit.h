@@ -35,21 +35,35 @@ namespace goniofit::chebyshev {
   return std::cos(std::numbers::pi * (static_cast<double>(i) + 0.5) / static_cast<double>(n));
 }
 
-/// Chebyshev interpolation of f(t) on [-1, 1], by powers of t.
-template <std::size_t n, class F>
-[[nodiscard]] std::array<double, n> fit_line(const F& f) {
-  const auto powers = chebyshev_powers(n);
-  std::array<double, n> c{};
-  std::vector<double> series(n, 0.0);
+/// Coefficients of T_0 ... T_(n-1) in the interpolation of f(t) on [-1, 1].
+template <class F>
+[[nodiscard]] std::vector<double> series(std::size_t n, const F& f) {
+  std::vector<double> c(n, 0.0);
   for (std::size_t i = 0; i < n; ++i) {
     const double t = place(i, n);
     const double value = f(t) * 2.0 / static_cast<double>(n);
     const std::vector<double> basis = chebyshev_values(n, t);
-    for (std::size_t k = 0; k < n; ++k) series[k] += value * basis[k] * (k > 0 ? 1.0 : 0.5);
+    for (std::size_t k = 0; k < n; ++k) c[k] += value * basis[k] * (k > 0 ? 1.0 : 0.5);
   }
+  return c;
+}
+
+/// Sum of c[k] T_k, k < n, by powers of t.
+[[nodiscard]] inline std::vector<double> by_powers(const std::vector<double>& c, std::size_t n) {
+  const auto powers = chebyshev_powers(n);
+  std::vector<double> sum(n, 0.0);
   for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t k = 0; k <= i; ++k) c[k] += series[i] * powers[i][k];
+    for (std::size_t k = 0; k <= i; ++k) sum[k] += c[i] * powers[i][k];
   }
+  return sum;
+}
+
+/// Chebyshev interpolation of f(t) on [-1, 1], by powers of t.
+template <std::size_t n, class F>
+[[nodiscard]] std::array<double, n> fit_line(const F& f) {
+  const std::vector<double> sum = by_powers(series(n, f), n);
+  std::array<double, n> c{};
+  std::copy(sum.begin(), sum.end(), c.begin());
   return c;
 }
 

@@ -37,7 +37,15 @@ class Lines {
       simplified.effects.erase(e);
       kept ? other.effects.erase(e) : other.effects.insert(e);
       if (other.effects.empty()) continue;
-      add({std::string(name_of(e)), kept ? "kept" : "left out", {}, !kept, worst(simplified), 0.0}, fill(other));
+      const std::string* reason = search_.reason_to_keep(e);
+      add({std::string(name_of(e)),
+           kept ? "kept" : "left out",
+           {},
+           !kept,
+           worst(simplified),
+           0.0,
+           reason != nullptr ? *reason : std::string()},
+          fill(other));
     }
   }
 
@@ -105,6 +113,7 @@ class Lines {
 
 std::string PlanLine::text() const {
   if (choice == "left out") return subject + " left out: changes " + percent(change) + ", " + saving(saves, true);
+  if (choice == "kept" && !because.empty()) return subject + " kept: " + because;
   if (choice == "kept") {
     return subject + " kept: leaving it out would change " + percent(change) + " and " + saving(saves, false);
   }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "cost/planner.h"
 #include "cost/reference.h"
 
 namespace goniofit {
@@ -47,14 +46,13 @@ bool reads_shadowing(EffectSet e) noexcept { return e.has(Effect::coh) || e.has(
 bool reads_effective_roughness(EffectSet e) noexcept { return reads_shadowing(e) || e.has(Effect::fs); }
 bool reads_distribution(EffectSet e) noexcept { return e.has(Effect::dd); }
 
-PlanSearch::PlanSearch(Material reference, const Terms& given, const Domain& domain, const ErrorSettings& settings,
-                       const CompileSettings& compile)
+PlanSearch::PlanSearch(Material reference, const Terms& given, const PlanSamples& samples, const PlanSettings& settings)
     : reference_(std::move(reference)),
       given_(given),
-      compile_(compile),
+      compile_(settings.compile),
+      arithmetic_(settings.arithmetic),
       acting_(acting_effects(reference_)),
-      channels_(channels_in(reference_, domain)),
-      samples_(error_samples(reference_, domain, settings)),
+      samples_(samples),
       fresnel_{reference_.terms.fresnel},
       shadowing_{reference_.terms.shadowing},
       roughness_{reference_.terms.effective_roughness},
@@ -71,7 +69,7 @@ PlanSearch::PlanSearch(Material reference, const Terms& given, const Domain& dom
     if (form >= reference_.forms.rough) rough_.push_back(form);
   }
   const EvaluationCandidate exact{.name = "reference", .material = material(this->reference())};
-  exact_ = model_values(exact, samples_);
+  exact_ = model_values(exact, samples_.directions);
 }
 
 PlanChoice PlanSearch::reference() const { return canonical({acting_, reference_.terms, reference_.forms.rough}); }
@@ -99,7 +97,12 @@ std::vector<PlanChoice> PlanSearch::all() const {
               if (std::find(begin, choices.end(), c) == choices.end()) choices.push_back(c);
             }
   };
-  for (const EffectSet effects : subsets_of(acting_)) add_all_tiers(effects);
+  for (const EffectSet effects : subsets_of(acting_)) {
+    const bool keeps_all = std::all_of(samples_.keep.begin(), samples_.keep.end(), [&](const auto& kept) {
+      return effects.has(kept.first) || !acting_.has(kept.first);
+    });
+    if (keeps_all) add_all_tiers(effects);
+  }
   return choices;
 }
 
@@ -119,16 +122,18 @@ const ModelValues& PlanSearch::part(Effect effect, const PlanChoice& choice) {
   const Key key{effect, t.fresnel, t.shadowing, t.effective_roughness, t.distribution, alone.rough};
   const auto found = parts_.find(key);
   if (found != parts_.end()) return found->second;
-  const EvaluationCandidate candidate{
-      .name = std::string(name_of(effect)), .material = material(alone), .compile = compile_};
-  return parts_.emplace(key, model_values(candidate, samples_)).first->second;
+  const EvaluationCandidate candidate{.name = std::string(name_of(effect)),
+                                      .material = material(alone),
+                                      .compile = compile_,
+                                      .arithmetic = arithmetic_};
+  return parts_.emplace(key, model_values(candidate, samples_.directions)).first->second;
 }
 
 ModelValues PlanSearch::sum(const PlanChoice& choice) {
   const std::size_t channels = reference_.channels.size();
-  const std::size_t mirrors = channels * samples_.mirrors.size();
+  const std::size_t mirrors = channels * samples_.directions.mirrors.size();
   ModelValues total{.channels = channels,
-                    .f = std::vector<double>(channels * samples_.directions.size()),
+                    .f = std::vector<double>(channels * samples_.directions.directions.size()),
                     .mirror = std::vector<double>(mirrors),
                     .mirror_energy = std::vector<double>(mirrors)};
   for (const Effect e : all_effects) {
@@ -137,7 +142,12 @@ ModelValues PlanSearch::sum(const PlanChoice& choice) {
   return total;
 }
 
-ModelError PlanSearch::error(const PlanChoice& choice) { return model_error(samples_, exact_, sum(choice), channels_); }
+ModelError PlanSearch::error(const PlanChoice& choice) { return samples_.error(exact_, sum(choice)); }
+
+const std::string* PlanSearch::reason_to_keep(Effect effect) const noexcept {
+  const auto found = samples_.keep.find(effect);
+  return found == samples_.keep.end() ? nullptr : &found->second;
+}
 
 bool no_dearer(const PlanChoice& a, const PlanChoice& b) noexcept {
   for (const Effect e : all_effects) {

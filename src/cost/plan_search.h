@@ -7,6 +7,7 @@
 
 #include "candidate.h"
 #include "model_error.h"
+#include "planner.h"
 
 namespace goniofit {
 
@@ -27,9 +28,17 @@ struct PlanChoice {
 class PlanSearch {
  public:
   /// `reference` has the most exact terms; `given` are the terms that what is not read falls back to.
-  PlanSearch(Material reference, const Terms& given, const Domain& domain, const ErrorSettings& settings,
-             const CompileSettings& compile);
+  /// Keeps a reference to the samples.
+  PlanSearch(Material reference, const Terms& given, const PlanSamples& samples, const PlanSettings& settings);
 
+  PlanSearch(const PlanSearch&) = delete;
+  PlanSearch& operator=(const PlanSearch&) = delete;
+  PlanSearch(PlanSearch&&) = delete;
+  PlanSearch& operator=(PlanSearch&&) = delete;
+  ~PlanSearch() = default;
+
+  /// Why an effect stays whatever its error; null where it need not.
+  [[nodiscard]] const std::string* reason_to_keep(Effect effect) const noexcept;
   /// The reference's tiers first, the cheaper ones after.
   [[nodiscard]] const std::vector<FresnelTier>& fresnel() const noexcept { return fresnel_; }
   [[nodiscard]] const std::vector<ShadowingTier>& shadowing() const noexcept { return shadowing_; }
@@ -52,9 +61,9 @@ class PlanSearch {
   Material reference_;
   Terms given_;
   CompileSettings compile_;
+  Arithmetic arithmetic_;
   EffectSet acting_;
-  std::vector<std::size_t> channels_;
-  ErrorSamples samples_;
+  const PlanSamples& samples_;
   std::vector<FresnelTier> fresnel_;
   std::vector<ShadowingTier> shadowing_;
   std::vector<EffectiveRoughnessTier> roughness_;

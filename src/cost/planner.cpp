@@ -60,7 +60,8 @@ class Clock {
   [[nodiscard]] std::vector<Timing> time(const std::vector<Material>& materials, std::size_t rounds) const {
     std::vector<TimedTask> tasks;
     for (const Material& m : materials) {
-      EvaluationCandidate c{.name = {}, .material = m, .compile = settings_.compile};
+      EvaluationCandidate c{
+          .name = {}, .material = m, .compile = settings_.compile, .arithmetic = settings_.arithmetic};
       c.material.channels.clear();
       for (const std::size_t i : channels_) c.material.channels.push_back(m.channels[i]);
       tasks.push_back(evaluation_task(c, pairs_));
@@ -121,6 +122,48 @@ void add_times(Plan& p, PlanSearch& search, const Clock& clock, const Material& 
   }
 }
 
+void check(const Material& material, double tolerance) {
+  if (!(tolerance > 0.0 && tolerance < 1.0)) {
+    throw usage_error("tolerance " + shortest(tolerance) + ": expected a number between 0 and 1");
+  }
+  validate(material, "");
+  if (material.model == surface_model && acting_effects(material).empty()) {
+    throw key_error(material.name, "/components", "none of the effects has a coefficient above 0, nothing to plan");
+  }
+}
+
+Plan searched(const Material& material, const PlanSamples& samples, double tolerance, const PlanSettings& settings,
+              const PlanProgress& progress) {
+  const auto tell = [&](const char* what) {
+    if (progress) progress(what);
+  };
+  Reference reference = reference_of(material, WaveOptics::fast);
+  PlanSearch search(reference.material, material.terms, samples, settings);
+  Plan p;
+  p.tolerance = tolerance;
+  p.reference = std::move(reference.name);
+  tell("errors of all combinations");
+  const std::vector<Feasible> feasible = within_tolerance(search, tolerance, settings.bound_rms, p.searched);
+  if (feasible.empty()) {
+    throw Error(ErrorKind::failed_result, "nothing stays within " + shortest(tolerance) + ": terms compiled to " +
+                                              shortest(settings.compile.tolerance) + " are too coarse for it");
+  }
+  const std::vector<Feasible> candidates = worth_timing(feasible);
+  p.within = feasible.size();
+  p.timed = candidates.size();
+  tell("times of those within the tolerance");
+  const Clock clock(settings, samples.channels);
+  const Feasible chosen = fastest(search, clock, candidates, settings.timing.rounds);
+  p.material = search.material(chosen.choice);
+  p.error = chosen.error;
+  Material given = material;
+  given.fit.reset();
+  p.error_before = search.error(search.canonical({acting_effects(material), material.terms, material.forms.rough}));
+  tell("what each decision changes and saves");
+  add_times(p, search, clock, given, plan_alternatives(search, chosen.choice), settings.timing.rounds);
+  return p;
+}
+
 }  // namespace
 
 PlanSettings PlanSettings::quick() {
@@ -159,44 +202,27 @@ ModelError error_within(const Material& reference, const Material& other, const 
 
 Plan plan(const Material& material, const Domain& domain, double tolerance, const PlanSettings& settings,
           const PlanProgress& progress) {
-  const auto tell = [&](const char* what) {
-    if (progress) progress(what);
-  };
-  if (!(tolerance > 0.0 && tolerance < 1.0)) {
-    throw usage_error("tolerance " + shortest(tolerance) + ": expected a number between 0 and 1");
-  }
-  Reference reference = reference_of(material, WaveOptics::fast);
-  if (acting_effects(material).empty()) {
-    throw key_error(material.name, "/components", "none of the effects has a coefficient above 0, nothing to plan");
-  }
+  check(material, tolerance);
   ErrorSettings errors = settings.errors;
   errors.seed = settings.seed;
-  PlanSearch search(reference.material, material.terms, domain, errors, settings.compile);
-  Plan p;
+  PlanSamples samples{.directions = error_samples(reference_of(material, WaveOptics::fast).material, domain, errors),
+                      .error = {},
+                      .channels = channels_in(material, domain)};
+  samples.error = [&samples](const ModelValues& reference, const ModelValues& other) {
+    return model_error(samples.directions, reference, other, samples.channels);
+  };
+  Plan p = searched(material, samples, tolerance, settings, progress);
   p.domain = domain;
-  p.tolerance = tolerance;
   p.bound_rms = settings.bound_rms;
-  p.reference = std::move(reference.name);
-  tell("errors of all combinations");
-  const std::vector<Feasible> feasible = within_tolerance(search, tolerance, settings.bound_rms, p.searched);
-  if (feasible.empty()) {
-    throw Error(ErrorKind::failed_result, "nothing stays within " + shortest(tolerance) + ": terms compiled to " +
-                                              shortest(settings.compile.tolerance) + " are too coarse for it");
-  }
-  const std::vector<Feasible> candidates = worth_timing(feasible);
-  p.within = feasible.size();
-  p.timed = candidates.size();
-  tell("times of those within the tolerance");
-  const Clock clock(settings, channels_in(material, domain));
-  const Feasible chosen = fastest(search, clock, candidates, settings.timing.rounds);
-  p.material = search.material(chosen.choice);
-  p.error = chosen.error;
-  Material given = material;
-  given.fit.reset();
-  p.error_before = search.error(search.canonical({acting_effects(material), material.terms, material.forms.rough}));
-  tell("what each decision changes and saves");
-  add_times(p, search, clock, given, plan_alternatives(search, chosen.choice), settings.timing.rounds);
   return p;
+}
+
+Plan plan_on(const PlanSamples& samples, const Material& material, double tolerance, const PlanSettings& settings,
+             const PlanProgress& progress) {
+  check(material, tolerance);
+  PlanSettings without_rms = settings;
+  without_rms.bound_rms = false;
+  return searched(material, samples, tolerance, without_rms, progress);
 }
 
 }  // namespace goniofit

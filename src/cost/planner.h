@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "../brdf/batch_evaluator.h"
 #include "../brdf/material.h"
 #include "../geometry/domain.h"
+#include "candidate.h"
 #include "error_samples.h"
 #include "model_error.h"
 #include "timing.h"
@@ -29,6 +31,7 @@ struct PlanLine {
   double change;
   /// The part of the time that it saves, or would save; negative where it costs.
   double saves;
+  std::string because{};  ///< of an effect that stays whatever its error: the caller's reason
   [[nodiscard]] std::string text() const;
 };
 
@@ -54,11 +57,22 @@ struct PlanSettings {
   std::size_t pairs = 4096;
   /// How the caller compiles what is planned: it decides what a term costs, and its tolerance is part of the error.
   CompileSettings compile{};
+  Arithmetic arithmetic = Arithmetic::batch_double;  ///< likewise
   std::uint64_t seed = 1;
   /// Bound the RMS relative error as well: dark directions then count as bright ones do.
   bool bound_rms = false;
   /// Few repetitions and directions: for trying out.
   [[nodiscard]] static PlanSettings quick();
+};
+
+/// Where errors are measured when that is no Domain: the directions of a scene, say.
+struct PlanSamples {
+  ErrorSamples directions;  ///< where the material is evaluated; at the mirror directions its coherent part
+  /// Of another version's values there; its worst_l1_bound is what the tolerance bounds, its worst_l1 what a decision
+  /// is said to change. Need not bother about the rest.
+  std::function<ModelError(const ModelValues& reference, const ModelValues& other)> error;
+  std::vector<std::size_t> channels;     ///< that are timed
+  std::map<Effect, std::string> keep{};  ///< effects that stay whatever the error says, and why
 };
 
 /// Told what is being done. Must not throw.
@@ -70,6 +84,11 @@ using PlanProgress = std::function<void(const std::string& what)>;
 /// channel has, and a material of which no effect acts.
 [[nodiscard]] Plan plan(const Material& material, const Domain& domain, double tolerance,
                         const PlanSettings& settings = {}, const PlanProgress& progress = {});
+
+/// The same where the caller knows the very directions; the plan's domain is left as it is by default, and `errors` and
+/// `bound_rms` are not read.
+[[nodiscard]] Plan plan_on(const PlanSamples& samples, const Material& material, double tolerance,
+                           const PlanSettings& settings = {}, const PlanProgress& progress = {});
 
 /// The channels that a domain asks for: all, or those of its wavelengths (to 0.5 nm). Throws Error (bad_input) for a
 /// wavelength that no channel has.

@@ -147,6 +147,32 @@ TEST(Planner, CheaperFormsOfGrooves) {
   EXPECT_LE(p.error.worst_l1_bound, 0.4);
 }
 
+// What a scene hands over: directions of its own, an error of its own.
+TEST(Planner, PlansOnDirectionsThatTheCallerChose) {
+  const Material m = laser_paper_73();
+  const Domain steep{.theta_i_max_deg = 20.0, .theta_r_max_deg = 30.0};
+  const Material exact = reference_of(m, WaveOptics::fast).material;
+  PlanSamples samples{.directions = error_samples(exact, steep, quick.errors), .error = {}, .channels = {0, 1, 2}};
+  samples.error = [&](const ModelValues& reference, const ModelValues& other) {
+    return model_error(samples.directions, reference, other);
+  };
+  const Plan free = plan_on(samples, m, 0.01, quick);
+  EXPECT_EQ(free.material.terms, plan(m, steep, 0.01, quick).material.terms);
+  EXPECT_FALSE(free.material.components.has(Effect::fs)) << "nothing scatters forward near the normal";
+
+  samples.keep[Effect::fs] = "someone wants it";
+  const Plan kept = plan_on(samples, m, 0.01, quick);
+  EXPECT_TRUE(kept.material.components.has(Effect::fs));
+  EXPECT_EQ(line_of(kept, "fs").text(), "fs kept: someone wants it");
+  EXPECT_LT(kept.searched, free.searched);
+
+  PlanSettings single = quick;
+  single.arithmetic = Arithmetic::batch_float;
+  const Plan in_float = plan_on(samples, m, 0.01, single);
+  EXPECT_GT(in_float.error.worst_l1, 1e-9) << "rounding is part of the error";
+  EXPECT_LE(in_float.error.worst_l1_bound, 0.01);
+}
+
 TEST(Planner, RefusesWhatCannotBePlanned) {
   EXPECT_THROW((void)plan(garnet_red_paint_13(), {}, 0.0, quick), Error);
   EXPECT_THROW((void)plan(garnet_red_paint_13(), {}, 1.0, quick), Error);

@@ -50,6 +50,7 @@ int run(int argc, char** argv) {
   goniofit::cli::add_tradeoff(program, status);
   goniofit::cli::add_plan(program, status);
   goniofit::cli::add_export(program, status);
+  goniofit::cli::add_curves(program, status);
   goniofit::cli::add_models(program, status);
   try {
     program.parse(argc, argv);

@@ -32,7 +32,16 @@ template <class In>
   return x * x;
 }
 
-template <class Real, class In>
+template <class In>
+[[gnu::always_inline]] inline In cosine_to_half(In h2, In z) {
+  return lane::at_most(In(1), In(0.5) * std::sqrt(h2 + square(z)));
+}
+template <class In>
+[[gnu::always_inline]] inline In difference2(const Vectors<In>& d) {
+  return square(d.l_x - d.v_x) + square(d.l_y - d.v_y) + square(d.l_z - d.v_z);
+}
+
+template <class Real, class In, bool half>
 struct Sum {
   using Arguments = PrepareArguments<Real, In>;
 
@@ -43,6 +52,8 @@ struct Sum {
     Real* const s_z = a[Field::s_z];
     Real* const s_h2 = a[Field::s_h2];
     Real* const tan2_b = a[Field::tan2_b];
+    [[maybe_unused]] Real* const cos_h = a[Field::cos_h];
+    [[maybe_unused]] Real* const rest_h = a[Field::one_minus_cos_h];
     const std::size_t n = a.n;
 #pragma GCC ivdep
     for (std::size_t k = 0; k < n; ++k) {
@@ -53,13 +64,23 @@ struct Sum {
       cos_r[k] = static_cast<Real>(d.v_z);
       s_z[k] = static_cast<Real>(z);
       s_h2[k] = static_cast<Real>(h2);
-      tan2_b[k] = static_cast<Real>(h2 / square(z));
+      if constexpr (half) {
+        const In u = cosine_to_half(h2, z);
+        const In up_h = In(1) + u;
+        const In over_all = In(1) / (up_h * square(z));
+        tan2_b[k] = static_cast<Real>(h2 * up_h * over_all);
+        cos_h[k] = static_cast<Real>(u);
+        rest_h[k] = static_cast<Real>(difference2(d) * In(0.25) * square(z) * over_all);
+      } else {
+        tan2_b[k] = static_cast<Real>(h2 / square(z));
+      }
     }
   }
 };
 
-// The same with the zenith angles' parts: one quotient for all; near the horizon 1 - z as it stands.
-template <class Real, class In, bool logarithms, bool sums>
+// The same beside the zenith angles' parts: one quotient for all of a loop, since the divider
+// is what they wait for; near the horizon 1 - z as it stands.
+template <class Real, class In, bool logarithms, bool sums, bool half>
 struct Zenith {
   using Arguments = PrepareArguments<Real, In>;
 
@@ -74,6 +95,8 @@ struct Zenith {
     Real* const rest_r = a[Field::one_minus_cos_r];
     Real* const log_i = a[Field::log_one_minus_cos_i];
     Real* const log_r = a[Field::log_one_minus_cos_r];
+    [[maybe_unused]] Real* const cos_h = a[Field::cos_h];
+    [[maybe_unused]] Real* const rest_h = a[Field::one_minus_cos_h];
     const std::size_t n = a.n;
 #pragma GCC ivdep
     for (std::size_t k = 0; k < n; ++k) {
@@ -82,9 +105,16 @@ struct Zenith {
       const In h2 = square(d.l_x + d.v_x) + square(d.l_y + d.v_y);
       const In up_i = In(1) + d.l_z;
       const In up_r = In(1) + d.v_z;
-      const In over_all = In(1) / (up_i * up_r * square(z));
-      const In over_z2 = up_i * up_r * over_all;
-      const In near = square(z) * over_all;
+      const In ups = up_i * up_r;
+      const In u = half ? cosine_to_half(h2, z) : In(0);
+      const In up_h = In(1) + u;
+      const In over_all = In(1) / (ups * up_h * square(z));
+      const In over_z2 = ups * up_h * over_all;
+      const In near = up_h * square(z) * over_all;
+      if constexpr (half) {
+        cos_h[k] = static_cast<Real>(u);
+        rest_h[k] = static_cast<Real>(difference2(d) * In(0.25) * ups * square(z) * over_all);
+      }
       const In near_i = (square(d.l_x) + square(d.l_y)) * up_r * near;
       const In near_r = (square(d.v_x) + square(d.v_y)) * up_i * near;
       const In i = d.l_z > In(0.5) ? near_i : In(1) - d.l_z;
@@ -105,27 +135,6 @@ struct Zenith {
         log_i[k] = i >= least ? of_i : Real(log_of_zero);
         log_r[k] = r >= least ? of_r : Real(log_of_zero);
       }
-    }
-  }
-};
-
-template <class Real, class In>
-struct Half {
-  using Arguments = PrepareArguments<Real, In>;
-
-  [[gnu::always_inline]] static void run(const Arguments& a) {
-    const auto direction = a.direction;
-    Real* const cos_h = a[Field::cos_h];
-    Real* const rest_h = a[Field::one_minus_cos_h];
-    const std::size_t n = a.n;
-#pragma GCC ivdep
-    for (std::size_t k = 0; k < n; ++k) {
-      const auto d = Vectors<In>::at(direction, k);
-      const In s2 = square(d.l_x + d.v_x) + square(d.l_y + d.v_y) + square(d.l_z + d.v_z);
-      const In difference2 = square(d.l_x - d.v_x) + square(d.l_y - d.v_y) + square(d.l_z - d.v_z);
-      const In u = lane::at_most(In(1), In(0.5) * std::sqrt(s2));
-      cos_h[k] = static_cast<Real>(u);
-      rest_h[k] = static_cast<Real>(difference2 / (In(4) * (In(1) + u)));
     }
   }
 };
@@ -177,6 +186,20 @@ struct Mirror {
   }
 };
 
+template <class Real, class In, bool half>
+Loop<PrepareArguments<Real, In>> zenith(Fields fields, bool sums, InstructionSet set) {
+  using enum Field;
+  if (fields.any_of({log_one_minus_cos_i, log_one_minus_cos_r})) {
+    return sums ? Vectorised<Zenith<Real, In, true, true, half>>::of(set)
+                : Vectorised<Zenith<Real, In, true, false, half>>::of(set);
+  }
+  if (fields.any_of({one_minus_cos_i, one_minus_cos_r})) {
+    return sums ? Vectorised<Zenith<Real, In, false, true, half>>::of(set)
+                : Vectorised<Zenith<Real, In, false, false, half>>::of(set);
+  }
+  return Vectorised<Sum<Real, In, half>>::of(set);
+}
+
 }  // namespace
 
 template <class Real, class In>
@@ -184,16 +207,11 @@ std::vector<Loop<PrepareArguments<Real, In>>> preparations(Fields fields, Instru
   using enum Field;
   std::vector<Loop<PrepareArguments<Real, In>>> loops;
   const bool sums = fields.any_of({s_z, s_h2});
-  if (fields.any_of({log_one_minus_cos_i, log_one_minus_cos_r})) {
-    loops.push_back(sums ? Vectorised<Zenith<Real, In, true, true>>::of(set)
-                         : Vectorised<Zenith<Real, In, true, false>>::of(set));
-  } else if (fields.any_of({one_minus_cos_i, one_minus_cos_r})) {
-    loops.push_back(sums ? Vectorised<Zenith<Real, In, false, true>>::of(set)
-                         : Vectorised<Zenith<Real, In, false, false>>::of(set));
+  if (fields.any_of({cos_h, one_minus_cos_h})) {
+    loops.push_back(zenith<Real, In, true>(fields, sums, set));
   } else {
-    loops.push_back(Vectorised<Sum<Real, In>>::of(set));
+    loops.push_back(zenith<Real, In, false>(fields, sums, set));
   }
-  if (fields.any_of({cos_h, one_minus_cos_h})) loops.push_back(Vectorised<Half<Real, In>>::of(set));
   if (fields.has(tan2_f_swapped)) {
     loops.push_back(Vectorised<Forward<Real, In, true>>::of(set));
   } else if (fields.any_of({tan2_f, forward})) {

@@ -10,7 +10,7 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 export DEBIAN_FRONTEND=noninteractive
 
-build_packages=(g++ cmake ninja-build ccache libceres-dev libeigen3-dev libopenexr-dev libcli11-dev nlohmann-json3-dev
+build_packages=(g++ cmake ninja-build ccache libceres-dev libeigen3-dev libopenexr-dev libpng-dev libembree-dev libcli11-dev nlohmann-json3-dev
   libtomlplusplus-dev libyaml-cpp-dev libfmt-dev libfast-float-dev libboost-dev
   gnuplot-nox)
 test_packages=(libgtest-dev librapidcheck-dev libmpfr-dev python3-lmfit)

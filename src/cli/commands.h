@@ -13,6 +13,7 @@ void add_eval(CLI::App& program, int& status);
 void add_verify(CLI::App& program, int& status);
 void add_tradeoff(CLI::App& program, int& status);
 void add_plan(CLI::App& program, int& status);
+void add_render(CLI::App& program, int& status);
 void add_export(CLI::App& program, int& status);
 void add_curves(CLI::App& program, int& status);
 void add_models(CLI::App& program, int& status);

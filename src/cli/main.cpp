@@ -49,6 +49,7 @@ int run(int argc, char** argv) {
   goniofit::cli::add_verify(program, status);
   goniofit::cli::add_tradeoff(program, status);
   goniofit::cli::add_plan(program, status);
+  goniofit::cli::add_render(program, status);
   goniofit::cli::add_export(program, status);
   goniofit::cli::add_curves(program, status);
   goniofit::cli::add_models(program, status);

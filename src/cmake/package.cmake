@@ -16,7 +16,7 @@ set(GONIOFIT_PUBLIC_HEADERS
   brdf/material.h brdf/paper_samples.h brdf/evaluator.h brdf/batch_evaluator.h brdf/sampler.h brdf/sampling_lobes.h brdf/sampling_rows.h
   scan/scan.h scan/scan_domain.h scan/clipping.h scan/reflectance_readings.h
   fit/settings.h fit/loss.h fit/exclusions.h fit/likelihood_profile.h fit/identifiability.h fit/measurement_design.h fit/fit.h fit/residual_tests.h fit/diagnostics.h fit/selection.h fit/comparison.h
-  io/scan_reader.h io/material_io.h io/recipe_io.h io/optical_constants.h io/reflectance_reader.h io/exr_table.h
+  io/scan_reader.h io/material_io.h io/recipe_io.h io/optical_constants.h io/reflectance_reader.h io/exr_table.h io/png_file.h
   synthetic/simulate.h synthetic/verify.h synthetic/judgement.h synthetic/recovery.h synthetic/exact_tests.h
   cost/timing.h cost/pareto.h cost/error_samples.h cost/candidate.h cost/model_error.h cost/reference.h cost/tradeoff.h cost/planner.h
   report/fit_report.h report/comparison_report.h report/verify_report.h report/plot.h report/plan_report.h report/tradeoff_report.h report/term_curves.h)

@@ -14,6 +14,7 @@ void add_verify(CLI::App& program, int& status);
 void add_tradeoff(CLI::App& program, int& status);
 void add_plan(CLI::App& program, int& status);
 void add_export(CLI::App& program, int& status);
+void add_report(CLI::App& program, int& status);
 void add_models(CLI::App& program, int& status);
 
 }  // namespace goniofit::cli

@@ -16,6 +16,7 @@ void add_plan(CLI::App& program, int& status);
 void add_render(CLI::App& program, int& status);
 void add_export(CLI::App& program, int& status);
 void add_curves(CLI::App& program, int& status);
+void add_report(CLI::App& program, int& status);
 void add_models(CLI::App& program, int& status);
 
 }  // namespace goniofit::cli

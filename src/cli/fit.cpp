@@ -73,14 +73,14 @@ void check_usage(const Options& options, const Recipe& recipe) {
   check_outputs(outputs, inputs);
 }
 
-void write_outputs(const Options& options, const Scan& scan, const FitResult& result) {
+void write_outputs(const Options& options, const Recipe& recipe, const Scan& scan, const FitResult& result) {
   // First, since it is what may be refused.
   const auto table = options.exr.empty() ? std::nullopt : std::optional(tabulate(result.material));
   if (options.has_output && !is_stdout(options.output)) write_material(options.output, result.material);
   if (!options.table.empty()) write_result(options.table, to_csv({result.material}));
   if (table) write_exr(options.exr, result.material, *table);
   for (const Path& plot : options.plots) plot_fit(plot, scan, result.material, plot_options(options));
-  draw_fit_outputs(options.extra, scan, result);
+  draw_fit_outputs(options.extra, scan, result, named_inputs(options.scan, options.flags, recipe));
 }
 
 // The fit, and where `--model auto` chose it, what it was compared with.
@@ -162,7 +162,7 @@ int run(const Options& options) {
   FitResult& result = outcome.result;
   add_reflectance(result, scan);
   if (options.json || is_weak(result)) add_measurement_design(result, scan, settings);
-  write_outputs(options, scan, result);
+  write_outputs(options, recipe, scan, result);
   print_result(options, scan, outcome);
   const bool described = !result.diagnostics || result.diagnostics->verdict != FitVerdict::fails;
   return result.converged && described ? 0 : static_cast<int>(ErrorKind::failed_result);
@@ -192,7 +192,7 @@ void add_fit(CLI::App& program, int& status) {
   command->footer(
       "Example:\n  goniofit fit data/garnet_red_paint_13.csv --n 1.7 --components dd,uds,fs -o garnet.json --plot "
       "garnet.svg\n  goniofit fit data/garnet_red_paint_13.csv --profile slope,R.k_fs --profile-plot profiles.svg "
-      "--residual-plot residuals.svg");
+      "--residual-plot residuals.svg --report garnet.html");
   command->callback([options, output, &status] {
     options->has_output = output->count() > 0;
     status = run(*options);

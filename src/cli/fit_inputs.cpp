@@ -22,11 +22,18 @@ std::vector<std::filesystem::path> scans_of(const ScanOptions& options, const Re
   return paths;
 }
 
+NamedFiles named_inputs(const ScanOptions& options, const FitFlags& flags, const Recipe& recipe) {
+  NamedFiles inputs;
+  for (const std::filesystem::path& scan : scans_of(options, recipe)) inputs.emplace_back("scan", scan);
+  if (options.recipe) inputs.emplace_back("recipe", *options.recipe);
+  if (const auto constants = optical_constants_of(flags, recipe)) inputs.emplace_back("optical constants", *constants);
+  if (const auto reflectances = reflectances_of(flags, recipe)) inputs.emplace_back("reflectances", *reflectances);
+  return inputs;
+}
+
 std::vector<std::filesystem::path> inputs_of(const ScanOptions& options, const FitFlags& flags, const Recipe& recipe) {
-  std::vector<std::filesystem::path> inputs = scans_of(options, recipe);
-  if (options.recipe) inputs.push_back(*options.recipe);
-  if (const auto constants = optical_constants_of(flags, recipe)) inputs.push_back(*constants);
-  if (const auto reflectances = reflectances_of(flags, recipe)) inputs.push_back(*reflectances);
+  std::vector<std::filesystem::path> inputs;
+  for (auto& [role, file] : named_inputs(options, flags, recipe)) inputs.push_back(std::move(file));
   return inputs;
 }
 

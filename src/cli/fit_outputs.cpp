@@ -4,7 +4,9 @@
 
 #include "cli/number_arguments.h"
 #include "cli/outputs.h"
+#include "cli/page_source.h"
 #include "report/gnuplot.h"
+#include "report/page.h"
 #include "report/profile_plot.h"
 #include "report/residual_plot.h"
 #include "support/error.h"
@@ -26,10 +28,12 @@ void check_pictures(const std::vector<std::filesystem::path>& paths, const std::
 std::vector<std::filesystem::path> FitOutputs::files() const {
   std::vector<std::filesystem::path> all = profile_plots;
   all.insert(all.end(), residual_plots.begin(), residual_plots.end());
+  if (!page.empty()) all.push_back(page);
   return all;
 }
 
 void add_fit_outputs(CLI::App& command, FitOutputs& outputs) {
+  command.add_option("--report", outputs.page, "the fit as one HTML page, which needs no network")->type_name("FILE");
   outputs.profile_flag =
       command
           .add_option("--profile", outputs.profile,
@@ -51,6 +55,7 @@ void add_fit_outputs(CLI::App& command, FitOutputs& outputs) {
 }
 
 void check_fit_outputs(const FitOutputs& outputs) {
+  if (!outputs.page.empty() && is_stdout(outputs.page)) throw usage_error("--report: a page needs a file name");
   check_pictures(outputs.profile_plots, "--profile-plot");
   check_pictures(outputs.residual_plots, "--residual-plot");
   std::error_code ignored;
@@ -66,9 +71,13 @@ void apply_fit_outputs(const FitOutputs& outputs, FitSettings& settings) {
   if (!outputs.profile.empty()) settings.profile = parse_words(outputs.profile, "--profile");
 }
 
-void draw_fit_outputs(const FitOutputs& outputs, const Scan& scan, const FitResult& result) {
+void draw_fit_outputs(const FitOutputs& outputs, const Scan& scan, const FitResult& result,
+                      const std::vector<std::pair<std::string, std::filesystem::path>>& inputs) {
   for (const std::filesystem::path& path : outputs.profile_plots) plot_profiles(path, result, scan);
   for (const std::filesystem::path& path : outputs.residual_plots) plot_residuals(path, scan, result);
+  if (!outputs.page.empty()) {
+    write_result(outputs.page, report_page(result, scan, page_source(outputs.page, inputs)));
+  }
 }
 
 }  // namespace goniofit::cli

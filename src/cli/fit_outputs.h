@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -18,6 +19,7 @@ struct FitOutputs {
   std::string profile;
   CLI::Option* profile_flag = nullptr;
   std::vector<std::filesystem::path> profile_plots, residual_plots;
+  std::filesystem::path page;  ///< empty for none
 
   [[nodiscard]] std::vector<std::filesystem::path> files() const;
 };
@@ -28,6 +30,8 @@ void add_fit_outputs(CLI::App& command, FitOutputs& outputs);
 void check_fit_outputs(const FitOutputs& outputs);
 /// What of it the fit itself has to know.
 void apply_fit_outputs(const FitOutputs& outputs, FitSettings& settings);
-void draw_fit_outputs(const FitOutputs& outputs, const Scan& scan, const FitResult& result);
+/// `inputs` are what the fit read, each with its role.
+void draw_fit_outputs(const FitOutputs& outputs, const Scan& scan, const FitResult& result,
+                      const std::vector<std::pair<std::string, std::filesystem::path>>& inputs);
 
 }  // namespace goniofit::cli

@@ -10,6 +10,7 @@
 #include <CLI/CLI.hpp>
 
 #include "cli/commands.h"
+#include "cli/page_source.h"
 #include "support/error.h"
 #include "support/text.h"
 
@@ -35,6 +36,7 @@ int usage_failure(const CLI::App& program, const std::string& what) {
 
 int run(int argc, char** argv) {
   int status = 0;
+  goniofit::cli::remember_command({argv + 1, argv + argc});
   CLI::App program("Fits the Li-Torrance reflectance model to BRDF measurements.", "goniofit");
   program.set_version_flag("--version", "goniofit " GONIOFIT_VERSION);
   program.require_subcommand(1);
@@ -52,6 +54,7 @@ int run(int argc, char** argv) {
   goniofit::cli::add_render(program, status);
   goniofit::cli::add_export(program, status);
   goniofit::cli::add_curves(program, status);
+  goniofit::cli::add_report(program, status);
   goniofit::cli::add_models(program, status);
   try {
     program.parse(argc, argv);

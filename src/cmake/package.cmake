@@ -19,7 +19,7 @@ set(GONIOFIT_PUBLIC_HEADERS
   io/scan_reader.h io/material_io.h io/recipe_io.h io/optical_constants.h io/reflectance_reader.h io/exr_table.h io/png_file.h
   synthetic/simulate.h synthetic/verify.h synthetic/judgement.h synthetic/recovery.h synthetic/exact_tests.h
   cost/timing.h cost/pareto.h cost/error_samples.h cost/candidate.h cost/model_error.h cost/reference.h cost/tradeoff.h cost/planner.h
-  report/fit_report.h report/comparison_report.h report/verify_report.h report/plot.h report/plan_report.h report/tradeoff_report.h report/term_curves.h)
+  report/fit_report.h report/comparison_report.h report/verify_report.h report/plot.h report/plan_report.h report/tradeoff_report.h report/term_curves.h report/page.h report/material_result.h report/sphere_picture.h)
 foreach(header IN LISTS GONIOFIT_PUBLIC_HEADERS)
   get_filename_component(room ${header} DIRECTORY)
   install(FILES ${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/goniofit/${room})
@@ -32,4 +32,4 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/goniofitConfigVersion.cma
 install(TARGETS goniofit_all EXPORT goniofitTargets)
 install(EXPORT goniofitTargets NAMESPACE goniofit:: DESTINATION ${GONIOFIT_PACKAGE_DIR})
 install(FILES ${PROJECT_BINARY_DIR}/goniofitConfig.cmake ${PROJECT_BINARY_DIR}/goniofitConfigVersion.cmake
-  DESTINATION ${GONIOFIT_PACKAGE_DIR})
+  ${CMAKE_CURRENT_LIST_DIR}/FindNettle.cmake DESTINATION ${GONIOFIT_PACKAGE_DIR})

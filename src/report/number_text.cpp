@@ -63,6 +63,8 @@ std::string percent_text(double part) {
   return fixed_text(percent, std::max(1 - leading_exponent(size), 0)) + " %";
 }
 
+std::string angle_text(double degrees) { return fmt::format("{:.4g}", std::round(10.0 * degrees) / 10.0); }
+
 std::string duration_text(double seconds) {
   if (seconds < 1.0) return fmt::format("{:.3g} ms", 1e3 * seconds);
   if (seconds < 60.0) return fmt::format("{:.3g} s", seconds);

@@ -18,6 +18,8 @@ struct ValueText {
 [[nodiscard]] std::string number_text(double value);
 /// A part of one as percent with two significant digits: "0.25 %"; empty where it is not finite.
 [[nodiscard]] std::string percent_text(double part);
+/// To a tenth of a degree, without trailing zeros or a unit.
+[[nodiscard]] std::string angle_text(double degrees);
 /// 38.2 ms, 1.24 s, 3 min 20 s.
 [[nodiscard]] std::string duration_text(double seconds);
 

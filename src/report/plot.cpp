@@ -95,14 +95,6 @@ ValueRange value_range(const PlotPlan& plan, double curve_highest) {
   return {low < 0.0 ? low - 0.05 * span : 0.0, high + 0.08 * span};
 }
 
-double lobe_width_deg(const Material& material) {
-  const double slope_width = degrees(material.surface.slope.value_or(1.0));
-  constexpr double cone_deg = 0.7;  // half-angle of the coherent cone of the usual source
-  // What a peer's parameters say of its width only the peer knows.
-  const bool narrow = material.components.has(Effect::coh) || material.model != surface_model;
-  return narrow ? std::min(slope_width, cone_deg) : slope_width;
-}
-
 std::string measured_block(const Scan& scan, const PlotPlan& plan, std::size_t channel, std::size_t incidence) {
   const PlottedIncidence& group = plan.incidences[incidence];
   std::string out = fmt::format("$m{}_{} << EOD\n", channel, incidence);
@@ -144,8 +136,6 @@ std::string curve_block(const Curve& curve, const ValueRange& range, bool log, s
   return out + "EOD\n";
 }
 
-std::string angle_text(double degrees) { return fmt::format("{:.4g}", std::round(10.0 * degrees) / 10.0); }
-
 // "0.0854 ± 0.0011", or the value alone.
 std::string value_with_uncertainty(const Material& material, const std::string& name, double value) {
   if (!material.fit) return number_text(value);
@@ -177,25 +167,6 @@ std::string subtitle(const Scan& scan, const Material& material, const PlotPlan&
   if (plan.channels.size() < scan.channels.size()) {
     text += fmt::format("   {} of {} channels", plan.channels.size(), scan.channels.size());
   }
-  return text;
-}
-
-// What a reader must know of the readings shown; empty for the plain case.
-std::string remarks(const PlotPlan& plan) {
-  std::vector<std::string> parts;
-  if (plan.incidences.size() < plan.incidences_available) {
-    parts.push_back(fmt::format("{} of {} incidence angles", plan.incidences.size(), plan.incidences_available));
-  }
-  if (plan.phi_i_deg) parts.push_back(fmt::format("φᵢ = {}° alone", angle_text(*plan.phi_i_deg)));
-  if (plan.azimuth_tolerance_deg > 0.5) {
-    parts.push_back(fmt::format("readings within {}° of the plane of incidence", plan.azimuth_tolerance_deg));
-  }
-  if (plan.incidence_width_deg > 0.5) {
-    parts.push_back(fmt::format("θᵢ pooled over {}°", plan.incidence_width_deg));
-  }
-  if (plan.not_shown > 0) parts.push_back(fmt::format("{} readings ≤ 0 or below the axis not shown", plan.not_shown));
-  std::string text;
-  for (const std::string& part : parts) text += (text.empty() ? "" : "; ") + part;
   return text;
 }
 
@@ -278,7 +249,7 @@ std::string text_commands(const Layout& layout, const PlotPlan& plan, const Scan
   out += fmt::format("set label 12 {} at screen {:.5f},{:.5f} center noenhanced textcolor rgb '#505050'\n",
                      gnuplot_quoted(subtitle(scan, material, plan)), middle, y(36.0));
   out += fmt::format("set label 13 {} at screen {:.5f},{:.5f} center noenhanced font '{}' textcolor rgb '#606060'\n",
-                     gnuplot_quoted(remarks(plan)), middle, y(54.0), font_text(layout, Layout::small_font));
+                     gnuplot_quoted(plot_remarks(plan)), middle, y(54.0), font_text(layout, Layout::small_font));
   out += fmt::format("set label 14 'θᵣ (degrees; positive = forward)' at screen {:.5f},{:.5f} center noenhanced\n",
                      middle, y(layout.height - 14.0));
   out += fmt::format("set label 15 'BRDF (sr⁻¹)' at screen {:.5f},{:.5f} center rotate by 90 noenhanced\n",

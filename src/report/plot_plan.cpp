@@ -1,9 +1,12 @@
 #include "report/plot_plan.h"
+#include "report/number_text.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
+
+#include <fmt/format.h>
 
 #include "geometry/angles.h"
 #include "report/fit_rows.h"
@@ -195,6 +198,32 @@ std::vector<double> curve_angles(const PlotPlan& plan, double theta_i_deg, doubl
   std::sort(angles.begin(), angles.end());
   angles.erase(std::unique(angles.begin(), angles.end()), angles.end());
   return angles;
+}
+
+double lobe_width_deg(const Material& material) {
+  const double slope_width = degrees(material.surface.slope.value_or(1.0));
+  constexpr double cone_deg = 0.7;  // half-angle of the coherent cone of the usual source
+  // What a peer's parameters say of its width only the peer knows.
+  const bool narrow = material.components.has(Effect::coh) || material.model != surface_model;
+  return narrow ? std::min(slope_width, cone_deg) : slope_width;
+}
+
+std::string plot_remarks(const PlotPlan& plan) {
+  std::vector<std::string> parts;
+  if (plan.incidences.size() < plan.incidences_available) {
+    parts.push_back(fmt::format("{} of {} incidence angles", plan.incidences.size(), plan.incidences_available));
+  }
+  if (plan.phi_i_deg) parts.push_back(fmt::format("φᵢ = {}° alone", angle_text(*plan.phi_i_deg)));
+  if (plan.azimuth_tolerance_deg > 0.5) {
+    parts.push_back(fmt::format("readings within {}° of the plane of incidence", plan.azimuth_tolerance_deg));
+  }
+  if (plan.incidence_width_deg > 0.5) {
+    parts.push_back(fmt::format("θᵢ pooled over {}°", plan.incidence_width_deg));
+  }
+  if (plan.not_shown > 0) parts.push_back(fmt::format("{} readings ≤ 0 or below the axis not shown", plan.not_shown));
+  std::string text;
+  for (const std::string& part : parts) text += (text.empty() ? "" : "; ") + part;
+  return text;
 }
 
 }  // namespace goniofit

@@ -38,4 +38,11 @@ struct PlotPlan {
 /// the mirror direction, down to a small part of `lobe_deg`.
 [[nodiscard]] std::vector<double> curve_angles(const PlotPlan& plan, double theta_i_deg, double lobe_deg);
 
+/// How wide the narrowest lobe of a material may be.
+[[nodiscard]] double lobe_width_deg(const Material& material);
+
+/// What a reader must know of the readings shown: "readings within 2° of the plane of incidence"; empty for the plain
+/// case.
+[[nodiscard]] std::string plot_remarks(const PlotPlan& plan);
+
 }  // namespace goniofit

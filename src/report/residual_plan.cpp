@@ -61,40 +61,6 @@ std::vector<ResidualPanel> by_incidence(const Scan& scan) {
   return panels;
 }
 
-// Of few readings at each of many angles no panel says much: six classes of incidence then, else some of the angles.
-void choose_panels(const Scan& scan, std::vector<ResidualPanel> all, ResidualPlan& plan) {
-  plan.incidences = all.size();
-  std::size_t readings = 0;
-  for (const ResidualPanel& panel : all) readings += panel.rows.size();
-  if (all.size() <= most_panels) {
-    plan.panels = std::move(all);
-  } else if (readings / all.size() >= 20) {
-    for (const std::size_t i : evenly_chosen(all.size(), most_panels)) plan.panels.push_back(std::move(all[i]));
-  } else {
-    constexpr double class_deg = 15.0;
-    for (ResidualPanel& panel : all) {
-      const double from = class_deg * std::floor(panel.theta_i_deg / class_deg);
-      if (plan.panels.empty() || panel.theta_i_deg >= plan.panels.back().theta_i_deg + class_deg)
-        plan.panels.push_back({from, from, {}});
-      ResidualPanel& last = plan.panels.back();
-      last.theta_i_high_deg = panel.theta_i_high_deg;
-      last.rows.insert(last.rows.end(), panel.rows.begin(), panel.rows.end());
-    }
-    for (ResidualPanel& panel : plan.panels) panel.theta_i_deg = scan.theta_i_deg[panel.rows.front()];
-  }
-}
-
-// Below it a quotient says more of the noise than of the fit: thrice the noise, or a thousandth of the largest value.
-double floor_of(const Scan& scan, const FitResult& result, const std::vector<std::size_t>& channels) {
-  double floor = 0.0;
-  for (const std::size_t c : channels) {
-    const std::vector<double>& values = scan.channels[c].values;
-    if (!values.empty()) floor = std::max(floor, 1e-3 * *std::max_element(values.begin(), values.end()));
-    if (result.diagnostics) floor = std::max(floor, result.diagnostics->channels[c].noise_floor);
-  }
-  return floor > 0.0 ? floor : 1.0;
-}
-
 // 1, 2 or 5 times a power of ten, at least the 98th percentile of the sizes.
 double nice_limit(std::vector<double> sizes) {
   if (sizes.empty()) return 1.0;
@@ -109,6 +75,39 @@ double nice_limit(std::vector<double> sizes) {
 }
 
 }  // namespace
+
+std::vector<ResidualPanel> incidence_panels(const Scan& scan, std::size_t most) {
+  std::vector<ResidualPanel> all = by_incidence(scan);
+  std::size_t readings = 0;
+  for (const ResidualPanel& panel : all) readings += panel.rows.size();
+  if (all.size() <= most) return all;
+  std::vector<ResidualPanel> panels;
+  if (readings / all.size() >= 20) {
+    for (const std::size_t i : evenly_chosen(all.size(), most)) panels.push_back(std::move(all[i]));
+    return panels;
+  }
+  constexpr double class_deg = 15.0;
+  for (ResidualPanel& panel : all) {
+    const double from = class_deg * std::floor(panel.theta_i_deg / class_deg);
+    if (panels.empty() || panel.theta_i_deg >= panels.back().theta_i_deg + class_deg)
+      panels.push_back({from, from, {}});
+    ResidualPanel& last = panels.back();
+    last.theta_i_high_deg = panel.theta_i_high_deg;
+    last.rows.insert(last.rows.end(), panel.rows.begin(), panel.rows.end());
+  }
+  for (ResidualPanel& panel : panels) panel.theta_i_deg = scan.theta_i_deg[panel.rows.front()];
+  return panels;
+}
+
+double residual_floor(const Scan& scan, const FitResult& result, const std::vector<std::size_t>& channels) {
+  double floor = 0.0;
+  for (const std::size_t c : channels) {
+    const std::vector<double>& values = scan.channels[c].values;
+    if (!values.empty()) floor = std::max(floor, 1e-3 * *std::max_element(values.begin(), values.end()));
+    if (result.diagnostics) floor = std::max(floor, result.diagnostics->channels[c].noise_floor);
+  }
+  return floor > 0.0 ? floor : 1.0;
+}
 
 ResidualPlan plan_residuals(const Scan& scan, const FitResult& result) {
   if (result.material.channels.size() != scan.channels.size()) {
@@ -128,8 +127,9 @@ ResidualPlan plan_residuals(const Scan& scan, const FitResult& result) {
   if (few) std::sort(plan.channels.begin(), plan.channels.end());
   plan.by_u = std::all_of(plan.channels.begin(), plan.channels.end(),
                           [&](std::size_t c) { return !scan.channels[c].u.empty(); });
-  plan.floor = floor_of(scan, result, plan.channels);
-  choose_panels(scan, by_incidence(scan), plan);
+  plan.floor = residual_floor(scan, result, plan.channels);
+  plan.incidences = by_incidence(scan).size();
+  plan.panels = incidence_panels(scan, most_panels);
   for (const std::size_t c : plan.channels) {
     std::vector<double>& values = plan.values.emplace_back();
     for (std::size_t row = 0; row < scan.size(); ++row) {

@@ -15,6 +15,15 @@ struct ResidualPanel {
   std::vector<std::size_t> rows;                     ///< of the scan
 };
 
+/// By theta_i, readings at 90° left out. Of more than `most` incidence angles some; of few readings at each of them,
+/// where no panel would say much, classes of 15°.
+[[nodiscard]] std::vector<ResidualPanel> incidence_panels(const Scan& scan, std::size_t most);
+
+/// In 1/sr: below it a quotient says more of the noise than of the fit. Thrice the noise, or a thousandth of the
+/// largest value.
+[[nodiscard]] double residual_floor(const Scan& scan, const FitResult& result,
+                                    const std::vector<std::size_t>& channels);
+
 struct ResidualPlan {
   std::vector<std::size_t> channels;  ///< shown: the worst alone on a map, up to three on curves
   bool map = false;                   ///< of the hemisphere; else curves against theta_r

@@ -1,3 +1,4 @@
+#include "report/number_text.h"
 #include "report/residual_plot.h"
 
 #include <algorithm>
@@ -32,8 +33,6 @@ MapPoint map_point(const AnglePair& a) {
   const double r = map_radius(a.theta_r_deg);
   return {-r * cos_deg(phi), -r * sin_deg(phi)};
 }
-
-std::string angle_text(double degrees) { return fmt::format("{:.4g}", std::round(10.0 * degrees) / 10.0); }
 
 std::string panel_title(const ResidualPanel& panel) {
   const std::string low = angle_text(panel.theta_i_deg);

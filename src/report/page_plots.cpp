@@ -1,0 +1,301 @@
+#include "report/page_plots.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "brdf/azimuths.h"
+#include "brdf/batch_evaluator.h"
+#include "geometry/angles.h"
+#include "report/digest.h"
+#include "report/fit_rows.h"
+#include "report/number_text.h"
+#include "report/plot_plan.h"
+#include "report/residual_plan.h"
+#include "report/sphere_picture.h"
+#include "support/error.h"
+
+namespace goniofit {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Rows = std::vector<std::size_t>;
+
+// What keeps a page below four megabytes.
+constexpr std::size_t most_values = 110'000;  // readings times channels, in maps and lobes
+constexpr std::size_t most_channels = 32, most_lobe_channels = 6;
+constexpr std::size_t most_incidences = 12, most_lobes = 8;
+// A mirror's spike on a plot ends here, in units of the largest reading.
+constexpr double spike = 1e3;
+
+class Plots {
+ public:
+  Plots(const FitResult& result, const Scan& scan)
+      : result_(result),
+        scan_(scan),
+        evaluator_(result.material),
+        anisotropic_(scan.size() > 0 && is_anisotropic(Evaluator(result.material))),
+        channels_(evenly_chosen(scan.channels.size(), most_channels)) {
+    std::vector<AnglePair> angles;
+    for (std::size_t row = 0; row < scan.size(); ++row) angles.push_back(scan.angles(row));
+    fitted_ = values(evaluator_, angles);
+    for (const ScanChannel& channel : scan.channels) {
+      for (const double value : channel.values) highest_ = std::max(highest_, value);
+    }
+    if (!(highest_ > 0.0)) highest_ = 1.0;
+  }
+  [[nodiscard]] Json all() const;
+
+ private:
+  [[nodiscard]] std::vector<double> values(const BatchEvaluator<double>& evaluator,
+                                           const std::vector<AnglePair>& angles) const {
+    std::vector<double> out(angles.size() * evaluator.channels());
+    evaluator.values(PairBatch(angles), out);
+    return out;
+  }
+  [[nodiscard]] double measured(std::size_t channel, std::size_t row) const {
+    return scan_.channels[channel].values[row];
+  }
+  [[nodiscard]] double fitted(std::size_t channel, std::size_t row) const {
+    return std::min(fitted_[channel * scan_.size() + row], spike * highest_);
+  }
+  [[nodiscard]] Json series(const Rows& rows) const;
+  [[nodiscard]] Json channels() const;
+  [[nodiscard]] Json curves() const;
+  [[nodiscard]] Json curve(const PlotPlan& plan, const PlottedIncidence& incidence, const Rows& rows) const;
+  [[nodiscard]] Json maps() const;
+  [[nodiscard]] Json lobes(const std::vector<ResidualPanel>& panels) const;
+  [[nodiscard]] Json lobe(const BatchEvaluator<double>& evaluator, double theta_i_deg, const Rows& channels) const;
+  [[nodiscard]] Json residual() const;
+  [[nodiscard]] double first_azimuth() const { return anisotropic_ ? scan_.phi_i_deg.front() : 0.0; }
+
+  const FitResult& result_;
+  const Scan& scan_;
+  BatchEvaluator<double> evaluator_;
+  bool anisotropic_;
+  Rows channels_;               // shown
+  std::vector<double> fitted_;  // [channel * readings + reading]
+  double highest_ = 0.0;        // reading
+};
+
+Json array_of(const std::vector<double>& values) { return base64_floats(values); }
+
+template <class Value>
+Json column(const Rows& rows, Value&& value) {
+  std::vector<double> out;
+  out.reserve(rows.size());
+  for (const std::size_t row : rows) out.push_back(value(row));
+  return array_of(out);
+}
+
+// Measured, fitted and u of some readings, channel by channel.
+Json Plots::series(const Rows& rows) const {
+  Json out = Json::array();
+  for (const std::size_t c : channels_) {
+    Json one;
+    one["measured"] = column(rows, [&](std::size_t row) { return measured(c, row); });
+    one["fitted"] = column(rows, [&](std::size_t row) { return fitted(c, row); });
+    const std::vector<double>& u = scan_.channels[c].u;
+    if (!u.empty()) one["u"] = column(rows, [&](std::size_t row) { return u[row]; });
+    out.push_back(std::move(one));
+  }
+  return out;
+}
+
+Json Plots::channels() const {
+  Json out = Json::array();
+  for (const std::size_t c : channels_) out.push_back(scan_.channels[c].name);
+  return out;
+}
+
+Json Plots::curve(const PlotPlan& plan, const PlottedIncidence& incidence, const Rows& rows) const {
+  std::vector<double> angles = curve_angles(plan, incidence.theta_i_deg, lobe_width_deg(result_.material));
+  std::vector<AnglePair> pairs;
+  for (const double angle : angles) {
+    AnglePair pair = in_plane(incidence.theta_i_deg, angle);
+    pair.phi_i_deg += plan.phi_i_deg.value_or(0.0);
+    pair.phi_r_deg += plan.phi_i_deg.value_or(0.0);
+    pairs.push_back(pair);
+  }
+  const std::vector<double> all = values(evaluator_, pairs);
+  Json out;
+  out["theta_i"] = incidence.theta_i_deg;
+  out["theta_r"] = array_of(incidence.signed_theta_r_deg);
+  out["channels"] = series(rows);
+  out["curve_theta_r"] = array_of(angles);
+  out["curve"] = Json::array();
+  for (const std::size_t c : channels_) {
+    std::vector<double> one(all.begin() + static_cast<std::ptrdiff_t>(c * angles.size()),
+                            all.begin() + static_cast<std::ptrdiff_t>((c + 1) * angles.size()));
+    for (double& f : one) f = std::min(f, spike * highest_);
+    out["curve"].push_back(array_of(one));
+  }
+  return out;
+}
+
+// Rows of the scan that at_azimuth() keeps.
+Rows rows_at_azimuth(const Scan& scan, double phi_i_deg) {
+  Rows rows;
+  for (std::size_t row = 0; row < scan.size(); ++row) {
+    if (std::fabs(wrap_deg(scan.phi_i_deg[row] - phi_i_deg)) <= 0.5) rows.push_back(row);
+  }
+  return rows;
+}
+
+Json Plots::curves() const {
+  Json out;
+  out["incidences"] = Json::array();
+  const Scan shown = anisotropic_ ? at_azimuth(scan_, first_azimuth()) : scan_;
+  PlotPlan plan;
+  try {
+    plan =
+        plan_plot(shown, {.axis = PlotAxis::automatic, .max_panels = most_channels, .max_incidences = most_incidences});
+  } catch (const Error&) {
+    out["note"] = "The scan has no readings within 10° of the plane of incidence.";
+    return out;
+  }
+  Rows whole(scan_.size());
+  std::iota(whole.begin(), whole.end(), std::size_t{0});
+  if (anisotropic_) {
+    plan.phi_i_deg = first_azimuth();
+    whole = rows_at_azimuth(scan_, first_azimuth());
+  }
+  out["log"] = plan.log;
+  plan.not_shown = 0;  // the page's reader chooses the axis
+  out["note"] = plot_remarks(plan);
+  for (const PlottedIncidence& incidence : plan.incidences) {
+    Rows rows;
+    for (const std::size_t row : incidence.rows) rows.push_back(whole[row]);
+    out["incidences"].push_back(curve(plan, incidence, rows));
+  }
+  return out;
+}
+
+Json panel_json(const ResidualPanel& panel, const Scan& scan, const Rows& rows) {
+  Json out;
+  out["theta_i"] = panel.theta_i_deg;
+  out["theta_i_high"] = panel.theta_i_high_deg;
+  out["theta_r"] = column(rows, [&](std::size_t row) { return scan.theta_r_deg[row]; });
+  // Where the mirror direction is, is 180° on every scan.
+  out["phi"] = column(rows, [&](std::size_t row) { return wrap_deg(scan.phi_r_deg[row] - scan.phi_i_deg[row]); });
+  return out;
+}
+
+Json Plots::maps() const {
+  const std::vector<ResidualPanel> panels = incidence_panels(scan_, most_incidences);
+  std::size_t readings = 0;
+  std::size_t out_of_plane = 0;
+  for (const ResidualPanel& panel : panels) {
+    for (const std::size_t row : panel.rows) out_of_plane += scan_.plane_side(row) == 0 ? 1 : 0;
+    readings += panel.rows.size();
+  }
+  const double kept = std::min(1.0, static_cast<double>(most_values) /
+                                        static_cast<double>(std::max<std::size_t>(1, readings * channels_.size())));
+  Json out;
+  out["available"] = 5 * out_of_plane > readings;
+  out["panels"] = Json::array();
+  for (const ResidualPanel& panel : panels) {
+    const auto most = static_cast<std::size_t>(std::ceil(kept * static_cast<double>(panel.rows.size())));
+    Rows rows;
+    for (const std::size_t i : evenly_chosen(panel.rows.size(), most)) rows.push_back(panel.rows[i]);
+    Json one = panel_json(panel, scan_, rows);
+    one["channels"] = series(rows);
+    out["panels"].push_back(std::move(one));
+  }
+  if (kept < 1.0) out["note"] = fmt::format("{} of the readings, evenly chosen", percent_text(kept));
+  return out;
+}
+
+// Nodes between two ends at most `step` apart, closer and closer towards `about`, down to a small part of `width`.
+std::vector<double> nodes(double first, double last, double step, double about, double width, int closer) {
+  std::vector<double> out;
+  const auto count = static_cast<int>(std::ceil((last - first) / step));
+  for (int i = 0; i <= count; ++i) out.push_back(first + (last - first) * i / count);
+  const double end = std::asinh(2.0 * step / width);
+  for (int i = -closer; i <= closer; ++i) {
+    const double node = about + width * std::sinh(end * i / closer);
+    if (node > first && node < last) out.push_back(node);
+  }
+  std::sort(out.begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
+  return out;
+}
+
+// A grid over the hemisphere of reflected directions; only its left half where the right one is alike.
+Json Plots::lobe(const BatchEvaluator<double>& evaluator, double theta_i_deg, const Rows& channels) const {
+  constexpr double step_deg = 5.0, horizon_deg = 89.5;
+  const double width = std::clamp(lobe_width_deg(result_.material), 0.3, 20.0);
+  const double turn = std::min(60.0, width / std::max(0.05, sin_deg(theta_i_deg)));
+  const std::vector<double> theta = nodes(0.0, horizon_deg, step_deg, theta_i_deg, width, 9);
+  std::vector<double> phi = nodes(0.0, 180.0, 2.0 * step_deg, 180.0, turn, 7);
+  if (anisotropic_) {
+    for (std::size_t i = phi.size() - 1; i-- > 0;) phi.push_back(360.0 - phi[i]);
+  }
+  std::vector<AnglePair> pairs;
+  for (const double t : theta) {
+    for (const double p : phi) pairs.push_back({theta_i_deg, first_azimuth(), t, first_azimuth() + p});
+  }
+  const std::vector<double> all = values(evaluator, pairs);
+  Json out;
+  out["theta_i"] = theta_i_deg;
+  out["theta"] = array_of(theta);
+  out["phi"] = array_of(phi);
+  out["values"] = Json::array();
+  for (const std::size_t c : channels) {
+    std::vector<double> one(all.begin() + static_cast<std::ptrdiff_t>(c * pairs.size()),
+                            all.begin() + static_cast<std::ptrdiff_t>((c + 1) * pairs.size()));
+    for (double& f : one) f = std::min(f, spike * highest_);
+    out["values"].push_back(array_of(one));
+  }
+  return out;
+}
+
+// At the maps' incidence angles, so that their readings can be drawn with them.
+Json Plots::lobes(const std::vector<ResidualPanel>& panels) const {
+  const BatchEvaluator<double> evaluator(quickly_drawn(result_.material), {.tolerance = 1e-4});
+  Rows of_shown = evenly_chosen(channels_.size(), most_lobe_channels);
+  Rows channels;
+  for (const std::size_t i : of_shown) channels.push_back(channels_[i]);
+  Json out;
+  out["channels"] = of_shown;  // indices into the channels shown
+  out["panels"] = evenly_chosen(panels.size(), most_lobes);
+  out["lobes"] = Json::array();
+  for (const std::size_t p : evenly_chosen(panels.size(), most_lobes)) {
+    out["lobes"].push_back(lobe(evaluator, 0.5 * (panels[p].theta_i_deg + panels[p].theta_i_high_deg), channels));
+  }
+  return out;
+}
+
+Json Plots::residual() const {
+  Json out;
+  out["by_u"] =
+      std::all_of(channels_.begin(), channels_.end(), [&](std::size_t c) { return !scan_.channels[c].u.empty(); });
+  out["floor"] = residual_floor(scan_, result_, channels_);
+  return out;
+}
+
+Json Plots::all() const {
+  Json out;
+  out["channels"] = channels();
+  if (channels_.size() < scan_.channels.size()) {
+    out["note"] = fmt::format("{} of {} channels are drawn", channels_.size(), scan_.channels.size());
+  }
+  out["anisotropic"] = anisotropic_;
+  out["residual"] = residual();
+  out["curves"] = curves();
+  out["maps"] = maps();
+  out["lobes"] = lobes(incidence_panels(scan_, most_incidences));
+  return out;
+}
+
+}  // namespace
+
+Json page_plots(const FitResult& result, const Scan& scan) { return Plots(result, scan).all(); }
+
+}  // namespace goniofit

@@ -16,10 +16,12 @@
 #include "cli/console.h"
 #include "cli/number_arguments.h"
 #include "cli/outputs.h"
+#include "cli/render_comparison.h"
 #include "io/material_io.h"
 #include "io/number.h"
 #include "render/material_variants.h"
 #include "render/picture_file.h"
+#include "render/scene_plan_report.h"
 #include "render/scene_reader.h"
 #include "render/sphere_scene.h"
 #include "support/error.h"
@@ -33,10 +35,11 @@ struct Options {
   std::filesystem::path output;
   std::optional<std::size_t> size, samples;
   std::optional<std::uint64_t> seed;
-  std::optional<std::string> exposure, models;
+  std::optional<std::string> exposure, models, effects;
+  std::optional<double> tolerance;
   double light_angle = 45.0;
   std::size_t threads = 0;
-  bool json = false, quiet = false;
+  bool json = false, quiet = false, compare = false;
 };
 
 bool is_scene(const std::filesystem::path& path) { return lower_case(path.extension().string()) == ".toml"; }
@@ -49,6 +52,8 @@ struct Result {
   RenderWork work;
   double seconds = 0.0, preparation_s = 0.0;
   std::optional<double> exposure_stops;
+  std::optional<ScenePlan> plan;
+  std::optional<RenderComparison> comparison;
 };
 
 void apply(const Options& options, ImageSettings& image) {
@@ -68,11 +73,46 @@ void add(Result& result, Rendering&& rendering, std::vector<Picture>& pictures) 
   for (std::string& note : rendering.notes) result.notes.push_back(std::move(note));
 }
 
-Rendering render_with_progress(const Scene& scene, const Options& options, const std::string& label,
-                               ProgressLine& line) {
+Rendering render_with_progress(const Scene& scene, const std::vector<RenderMaterial>& materials, const Options& options,
+                               const std::string& label, ProgressLine& line) {
   line.show(label, 0, 0);
-  return render(scene, given_materials(scene), {.threads = options.threads},
+  return render(scene, materials, {.threads = options.threads},
                 [&](std::size_t done, std::size_t total) { line.show(label, done, total); });
+}
+
+// What the picture is made with.
+enum class Effects { given, all, published, planned };
+Effects effects_of(const Options& options, const Scene& scene) {
+  const bool asked = options.tolerance || scene.plan_tolerance || options.compare;
+  if (!options.effects) return asked ? Effects::planned : Effects::given;
+  if (options.compare && *options.effects != "planned") {
+    throw usage_error("--compare compares a plan, expected --effects planned beside it");
+  }
+  if (*options.effects == "given") return Effects::given;
+  if (*options.effects == "all") return Effects::all;
+  if (*options.effects == "published") return Effects::published;
+  if (*options.effects == "planned") return Effects::planned;
+  throw usage_error("--effects: " + in_quotes(*options.effects) + ", expected planned, given, all or published");
+}
+
+std::vector<RenderMaterial> materials_of(Effects effects, const Scene& scene, const Options& options, Result& result,
+                                         ProgressLine& line) {
+  switch (effects) {
+    case Effects::given:
+      return given_materials(scene);
+    case Effects::all:
+      return exact_materials(scene);
+    case Effects::published:
+      return published_materials(scene);
+    case Effects::planned:
+      break;
+  }
+  constexpr double default_tolerance = 0.01;
+  ScenePlanSettings settings;
+  settings.seed = scene.image.seed;
+  result.plan = plan_scene(scene, options.tolerance.value_or(scene.plan_tolerance.value_or(default_tolerance)),
+                           settings, [&line](const std::string& what) { line.show(what, 0, 0); });
+  return result.plan->planned;
 }
 
 Result render_scene(const Options& options) {
@@ -80,11 +120,20 @@ Result render_scene(const Options& options) {
   Scene scene = read_scene(options.inputs.front());
   apply(options, scene.image);
   Result result;
-  std::vector<Picture> pictures;
-  ProgressLine line("render", options.quiet);
-  add(result, render_with_progress(scene, options, "render", line), pictures);
-  result.picture = std::move(pictures.front());
   result.exposure_stops = scene.image.exposure_stops;
+  ProgressLine line("render", options.quiet);
+  const std::vector<RenderMaterial> materials = materials_of(effects_of(options, scene), scene, options, result, line);
+  if (options.compare) {
+    result.comparison = compare_renders(scene, *result.plan, options.threads,
+                                        [&line](const std::string& what) { line.show(what, 0, 0); });
+    result.picture = std::move(result.comparison->picture);
+    result.work = result.comparison->work;
+    result.seconds = result.comparison->seconds.median;
+    return result;
+  }
+  std::vector<Picture> pictures;
+  add(result, render_with_progress(scene, materials, options, "render", line), pictures);
+  result.picture = std::move(pictures.front());
   return result;
 }
 
@@ -104,7 +153,7 @@ Result render_spheres(const Options& options) {
       const std::string name = material.name.empty() ? path.stem().string() : material.name;
       result.captions.push_back(model == "given" ? name : name + ": " + model);
       const Scene scene = sphere_scene(variant_of(material, model), settings);
-      add(result, render_with_progress(scene, options, result.captions.back(), line), pictures);
+      add(result, render_with_progress(scene, given_materials(scene), options, result.captions.back(), line), pictures);
     }
   }
   result.picture = side_by_side(pictures);
@@ -130,8 +179,10 @@ std::string rays_text(const Result& r) {
 
 std::string text_of(const Result& r) {
   std::string text;
+  if (r.plan) text += scene_plan_text(*r.plan, stdout_style());
+  if (r.comparison) text += comparison_text(*r.comparison);
   if (!r.captions.empty()) {
-    text = "from left to right:";
+    text += "from left to right:";
     for (const std::string& caption : r.captions) text += (&caption == r.captions.data() ? " " : " | ") + caption;
     text += '\n';
   }
@@ -141,7 +192,7 @@ std::string text_of(const Result& r) {
 
 std::string json_of(const Result& r) {
   const RenderWork& w = r.work;
-  const nlohmann::ordered_json json{
+  nlohmann::ordered_json json{
       {"width", r.picture.width},
       {"height", r.picture.height},
       {"pictures", r.captions},
@@ -152,6 +203,8 @@ std::string json_of(const Result& r) {
        {{"camera", w.camera_rays}, {"path", w.path_rays}, {"mirror", w.mirror_rays}, {"shadow", w.shadow_rays}}},
       {"evaluations", w.evaluations},
       {"thread_seconds", {{"trace", w.trace_s}, {"evaluate", w.evaluate_s}, {"draw", w.draw_s}, {"other", w.other_s}}}};
+  if (r.plan) json["plan"] = nlohmann::ordered_json::parse(scene_plan_json(*r.plan));
+  if (r.comparison) json["comparison"] = nlohmann::ordered_json::parse(comparison_json(*r.comparison));
   return json.dump(2) + '\n';
 }
 
@@ -183,6 +236,8 @@ int run(const Options& options) {
     if (notes.empty()) notes.emplace_back("goniofit.pictures", "");
     notes.front().second += (notes.front().second.empty() ? "" : " | ") + caption;
   }
+  if (result.plan) notes.emplace_back("goniofit.plan", scene_plan_text(*result.plan, {}));
+  if (result.comparison) notes.emplace_back("goniofit.comparison", comparison_text(*result.comparison));
   write_picture(options.output, result.picture, result.exposure_stops, notes);
   to_stdout(options.json ? json_of(result) : text_of(result));
   return 0;
@@ -207,6 +262,19 @@ void add_render(CLI::App& program, int& status) {
       ->type_name("DEG")
       ->capture_default_str();
   command->add_option("--models", options->models, std::string("of each sphere: ") + variant_words)->type_name("LIST");
+  command
+      ->add_option("--tolerance", options->tolerance,
+                   "of a scene's picture: leave out what changes it by less (relative RMS over lit pixels)")
+      ->type_name("PART");
+  command
+      ->add_option(
+          "--effects", options->effects,
+          "of a scene: planned (to the tolerance; default where there is one), given (as the materials are), all "
+          "(exact terms) or published (Li & Torrance's terms)")
+      ->type_name("WHICH");
+  command->add_flag(
+      "--compare", options->compare,
+      "of a scene: render the plan, all effects and the published terms in turn; state differences and times");
   command->add_option("--threads", options->threads, "0 is all there are; the picture is the same")
       ->type_name("N")
       ->capture_default_str();
@@ -214,7 +282,9 @@ void add_render(CLI::App& program, int& status) {
   command->add_flag("-q,--quiet", options->quiet, "no progress on standard error");
   command->footer(
       "Example:\n  goniofit render fits/ground_glass_41.json --models lambert,li-torrance,no-roughness "
-      "--light-angle 110 -o spheres.png");
+      "--light-angle 110 -o spheres.png\n  goniofit render data/scenes/five_materials.toml --tolerance 0.01 --compare "
+      "-o "
+      "scene.exr");
   command->callback([options, &status] { status = run(*options); });
 }
 

@@ -59,4 +59,10 @@ Reference reference_of(const Material& material, WaveOptics wave_optics) {
   return r;
 }
 
+Terms published_terms(const Material& material) {
+  Terms terms;
+  if (material.terms.distribution == DistributionTier::student_t) terms.distribution = DistributionTier::student_t;
+  return terms;
+}
+
 }  // namespace goniofit

@@ -21,6 +21,9 @@ enum class WaveOptics { series, fast };  ///< the plain sum, or the expansion th
 /// what they were fitted with. Throws Error (bad_input) for an invalid material and for a peer, which has no terms.
 [[nodiscard]] Reference reference_of(const Material& material, WaveOptics wave_optics);
 
+/// The terms as published, or as near to them as the material can: long-tailed slopes keep their distribution.
+[[nodiscard]] Terms published_terms(const Material& material);
+
 /// The effects that are among the components and have a coefficient other than 0 in some channel.
 [[nodiscard]] EffectSet acting_effects(const Material& material);
 

@@ -150,12 +150,6 @@ void mark_pareto(Rows& rows) {
   for (std::size_t i = 0; i < rows.size(); ++i) rows[i].pareto = front[i];
 }
 
-Terms published_terms(const Material& material) {
-  Terms terms;
-  if (material.terms.distribution == DistributionTier::student_t) terms.distribution = DistributionTier::student_t;
-  return terms;
-}
-
 }  // namespace tradeoff
 
 std::string_view name_of(TradeoffGroup group) noexcept {

@@ -30,9 +30,6 @@ struct Table {
 [[nodiscard]] Rows timed(const Table& table, const TradeoffSettings& settings);
 void mark_pareto(Rows& rows);
 
-/// The terms as published, or as near to them as the material can: long-tailed slopes keep their distribution.
-[[nodiscard]] Terms published_terms(const Material& material);
-
 [[nodiscard]] Rows model_rows(const Material& material, const TradeoffSettings& settings, const Note& note);
 /// Of one of the four terms.
 [[nodiscard]] Rows term_rows(TradeoffGroup group, const Material& material, const TradeoffSettings& settings);

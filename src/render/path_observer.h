@@ -16,8 +16,8 @@ struct PathVertex {
   Direction l, v;
 };
 
-/// Paths are stretches between surfaces, named by what `begins` and `goes_on` return. Spectra have one number a channel and
-/// live for the call only; amounts are of the pixel's radiance.
+/// Paths are stretches between surfaces, named by what `begins` and `goes_on` return. Spectra have one number a channel
+/// and live for the call only; amounts are of the pixel's radiance.
 class PathObserver {
  public:
   virtual ~PathObserver() = default;

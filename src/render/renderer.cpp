@@ -82,7 +82,8 @@ Rendering render(const Scene& scene, std::span<const RenderMaterial> materials, 
   result.notes = notes_on(scene, shaders);
   result.preparation_s = seconds_since(start);
 
-  const RenderContext context{scene, tracer, lights, shaders, settings.sampling, camera_frame(scene.camera)};
+  const RenderContext context{
+      scene, tracer, lights, shaders, settings.sampling, settings.observer, camera_frame(scene.camera)};
   const std::vector<Tile> tiles = tiles_of(scene.image);
   std::vector<RenderWork> work(tiles.size());
   const Clock::time_point first_ray = Clock::now();
@@ -93,7 +94,7 @@ Rendering render(const Scene& scene, std::span<const RenderMaterial> materials, 
         renderer.render(tiles[i], result.picture.radiance);
         work[i] = renderer.work();
       },
-      progress, settings.threads);
+      progress, settings.observer != nullptr ? 1 : settings.threads);
   result.seconds = seconds_since(first_ray);
   for (const RenderWork& w : work) result.work += w;
   return result;

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "path_observer.h"
 #include "scene.h"
 
 namespace goniofit {
@@ -21,6 +22,7 @@ enum class LightSampling : std::uint8_t { both, lights, model };
 struct RenderSettings {
   std::size_t threads = 0;  ///< 0: as many as the machine has
   LightSampling sampling = LightSampling::both;
+  PathObserver* observer = nullptr;  ///< told of every path; on one thread then, whatever `threads` says
 };
 
 struct Picture {

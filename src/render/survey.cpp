@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include "geometry/angles.h"
 #include "render/path_observer.h"
@@ -15,7 +16,8 @@ namespace {
 
 constexpr std::uint32_t none = ~std::uint32_t{0};
 
-// Writes down every vertex; what a stretch of a path gathered is known, and so what its factor is worth, when all is done.
+// Writes down every vertex; what a stretch of a path gathered is known, and so what its factor is worth, when all is
+// done.
 class Recorder final : public PathObserver {
  public:
   struct Vertices {
@@ -38,8 +40,7 @@ class Recorder final : public PathObserver {
     return add({.pixel = stretches_[x.path].pixel, .parent = x.path, .of = &of, .vertex = vertex});
   }
 
-  void lit(const PathVertex& x, std::size_t light, std::span<const double> weight,
-           std::span<const double> f) override {
+  void lit(const PathVertex& x, std::size_t light, std::span<const double> weight, std::span<const double> f) override {
     Vertices& of = lobes_[x.material];
     write(of, x, static_cast<std::uint32_t>(light));
     of.weights.insert(of.weights.end(), weight.begin(), weight.end());
@@ -144,40 +145,46 @@ double mirror_distance(const Direction& l, const Direction& v) {
   return std::sqrt((l.x + v.x) * (l.x + v.x) + (l.y + v.y) * (l.y + v.y) + (l.z - v.z) * (l.z - v.z));
 }
 
-// Of one light: the pixel nearest to its mirror image, and whether the image may be seen. Distances change from pixel to
-// pixel; where the least of them is smaller than its change to some neighbour, the image lies at that pixel or between
-// it and the next. `reach` is what a pixel's own samples span.
-bool image_in_view(const std::map<std::uint32_t, double>& nearest, std::size_t width, std::uint32_t& pixel) {
-  const auto least = std::min_element(nearest.begin(), nearest.end(),
-                                      [](const auto& a, const auto& b) { return a.second < b.second; });
-  pixel = least->first;
+// Of one light: the pixel nearest to its mirror image, and whether the image may be seen. Distances change from pixel
+// to pixel; where the least of them is smaller than its change to some neighbour, the image lies at that pixel or
+// between it and the next.
+struct Nearest {
+  double distance;
+  Direction v;
+};
+using NearestOf = std::map<std::uint32_t, Nearest>;  // by pixel
+
+std::optional<MirrorImage> image_in_view(std::size_t light, const NearestOf& nearest, std::size_t width) {
+  const auto least = std::min_element(nearest.begin(), nearest.end(), [](const auto& a, const auto& b) {
+    return a.second.distance < b.second.distance;
+  });
   double change = 0.0;
-  const auto column = static_cast<long>(pixel % width);
-  const auto row = static_cast<long>(pixel / width);
-  for (long dr = -1; dr <= 1; ++dr) {
-    for (long dc = -1; dc <= 1; ++dc) {
-      if (column + dc < 0 || column + dc >= static_cast<long>(width) || row + dr < 0) continue;
-      const auto neighbour = nearest.find(static_cast<std::uint32_t>((row + dr) * static_cast<long>(width) + column + dc));
-      if (neighbour != nearest.end()) change = std::max(change, neighbour->second - least->second);
+  const auto column = static_cast<long>(least->first % width);
+  const auto row = static_cast<long>(least->first / width);
+  for (long r = std::max(0L, row - 1); r <= row + 1; ++r) {
+    for (long c = std::max(0L, column - 1); c <= std::min(static_cast<long>(width) - 1, column + 1); ++c) {
+      const auto neighbour = nearest.find(static_cast<std::uint32_t>(r * static_cast<long>(width) + c));
+      if (neighbour == nearest.end()) continue;
+      change = std::max(change, neighbour->second.distance - least->second.distance);
     }
   }
-  return least->second <= change;
+  if (least->second.distance > change) return std::nullopt;
+  return MirrorImage{light, least->first, least->second.v};
 }
 
 std::vector<MirrorImage> images_of(const Scene& scene, const Recorder::Vertices& vertices, std::size_t width) {
-  std::map<std::uint32_t, std::map<std::uint32_t, double>> nearest;  // by light, then pixel
+  std::map<std::uint32_t, NearestOf> of_light;
   for (std::size_t i = 0; i < vertices.pixel.size(); ++i) {
     const std::uint32_t light = vertices.light[i];
     if (light == none || !mirror_shows(scene.lights[light])) continue;
     if (std::holds_alternative<EnvironmentLight>(scene.lights[light])) continue;
-    const double distance = mirror_distance(vertices.l[i], vertices.v[i]);
-    const auto [at, is_new] = nearest[light].try_emplace(vertices.pixel[i], distance);
-    if (!is_new) at->second = std::min(at->second, distance);
+    const Nearest here{mirror_distance(vertices.l[i], vertices.v[i]), vertices.v[i]};
+    const auto [at, is_new] = of_light[light].try_emplace(vertices.pixel[i], here);
+    if (!is_new && here.distance < at->second.distance) at->second = here;
   }
   std::vector<MirrorImage> images;
-  for (const auto& [light, distances] : nearest) {
-    std::uint32_t pixel = 0;
-    if (image_in_view(distances, width, pixel)) images.push_back({light, pixel});
+  for (const auto& [light, nearest] : of_light) {
+    if (const auto image = image_in_view(light, nearest, width)) images.push_back(*image);
   }
   return images;
 }
@@ -207,7 +214,9 @@ SceneSurvey survey(const Scene& scene, std::span<const RenderMaterial> materials
     const Recorder::Vertices& lobes = recorder.lobes(m);
     const Recorder::Vertices& mirrors = recorder.mirrors(m);
     const KeptPixels kept(lobes.pixel.size() + mirrors.pixel.size(), settings);
-    MaterialSurvey s{.lobes = kept_of(lobes, kept, channels), .mirrors = kept_of(mirrors, kept, channels)};
+    MaterialSurvey s;
+    s.lobes = kept_of(lobes, kept, channels);
+    s.mirrors = kept_of(mirrors, kept, channels);
     s.seen = s.lobes.size() + s.mirrors.size() > 0;
     if (s.seen) s.domain = domain_of(s.lobes, s.mirrors);
     if (materials[m].material.components.has(Effect::coh)) s.images = images_of(scene, lobes, small.image.width);

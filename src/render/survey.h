@@ -14,13 +14,14 @@
 namespace goniofit {
 
 struct SurveySettings {
-  std::size_t pixels = 4096;         ///< about as many, in the image's shape
-  std::size_t samples = 4;           ///< a pixel
+  std::size_t pixels = 4096;          ///< about as many, in the image's shape
+  std::size_t samples = 4;            ///< a pixel
   std::size_t most_vertices = 16384;  ///< kept of a material: whole pixels are dropped at random beyond
   std::uint64_t seed = 1;
 };
 
-/// A factor of light paths: to first order an error Δ of it changes the radiance of `pixel` by weight * Δ in each channel.
+/// A factor of light paths: to first order an error Δ of it changes the radiance of `pixel` by weight * Δ in each
+/// channel.
 struct PathFactors {
   DirectionBatch directions{};
   std::vector<std::uint32_t> pixel{};
@@ -28,17 +29,18 @@ struct PathFactors {
   [[nodiscard]] std::size_t size() const noexcept { return pixel.size(); }
 };
 
-/// A light with a size, other than the sky, whose mirror image in the material is in view or may lie between the pixels of
-/// the survey.
+/// A light with a size, other than the sky, whose mirror image in the material is in view or may lie between the pixels
+/// of the survey.
 struct MirrorImage {
   std::size_t light;
   std::uint32_t pixel;  ///< nearest to it
+  Direction v;          ///< to the eye from there
 };
 
 struct MaterialSurvey {
-  bool seen = false;     ///< some light path that matters has it
-  Domain domain{};       ///< the zenith angles of light and viewer that occur
-  PathFactors lobes{};   ///< values f of all effects but coh
+  bool seen = false;      ///< some light path that matters has it
+  Domain domain{};        ///< the zenith angles of light and viewer that occur
+  PathFactors lobes{};    ///< values f of all effects but coh
   PathFactors mirrors{};  ///< what coh reflects, k_dd F S exp(-g), at l = mirrored(v)
   std::vector<MirrorImage> images{};
 };

@@ -89,6 +89,7 @@ void TileRenderer::start_paths(const Tile& tile, std::size_t first_sample, std::
         const double y = (0.5 * static_cast<double>(image.height) - static_cast<double>(row) - within[1]) * pixel_size;
         now_.rays.push_back({camera.position, normalised(context_.camera.to_world(x, y, -1.0))});
         now_.paths.push_back({.pixel = pixel, .key = key, .sample = sample, .normal = {}});
+        if (context_.observer != nullptr) now_.paths.back().observed = context_.observer->begins(pixel);
         now_.throughput.insert(now_.throughput.end(), channels_, 1.0 / static_cast<double>(image.samples));
       }
     }
@@ -109,6 +110,14 @@ void TileRenderer::add_emission(std::size_t path, const LightSampler::Emission& 
   const double scale = emission.scale * weight;
   if (scale == 0.0) return;
   for (std::size_t c = 0; c < channels_; ++c) pixel[c] += throughput[c] * scale * emission.spectrum[c];
+  if (context_.observer == nullptr) return;
+  weights_.clear();
+  for (std::size_t c = 0; c < channels_; ++c) weights_.push_back(throughput[c] * scale * emission.spectrum[c]);
+  context_.observer->met_light(now_.paths[path].observed, weights_);
+}
+
+PathVertex TileRenderer::vertex(std::uint32_t path, std::size_t material, const Direction& l) const {
+  return {now_.paths[path].observed, material, l, to_eye_[path]};
 }
 
 // What the rays themselves run into. A ray that the model drew shares a light that has a size with the drawing of
@@ -198,10 +207,10 @@ void TileRenderer::draw_light(std::size_t material, std::size_t light, double ch
     from_light_.push_back(l);
   }
   lap(&RenderWork::draw_s);
-  add_arrivals(material, sampler.is_delta());
+  add_arrivals(material, light, sampler.is_delta());
 }
 
-void TileRenderer::add_arrivals(std::size_t material, bool coherent) {
+void TileRenderer::add_arrivals(std::size_t material, std::size_t light, bool coherent) {
   if (arrivals_.empty()) return;
   blocked_.resize(shadow_rays_.size());
   context_.tracer.occluded(shadow_rays_, blocked_, coherent);
@@ -227,6 +236,21 @@ void TileRenderer::add_arrivals(std::size_t material, bool coherent) {
       pixel[c] += throughput[c] * a.weight * a.spectrum[c] * values_[c * kept + i];
     }
   }
+  if (context_.observer != nullptr) tell_of_arrivals(material, light, kept);
+}
+
+void TileRenderer::tell_of_arrivals(std::size_t material, std::size_t light, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const Arrival& a = arrivals_[i];
+    weights_.clear();
+    factors_.clear();
+    for (std::size_t c = 0; c < channels_; ++c) {
+      weights_.push_back(now_.throughput[a.path * channels_ + c] * a.weight * a.spectrum[c]);
+      factors_.push_back(values_[c * count + i]);
+    }
+    const Direction l{directions_.l_x[i], directions_.l_y[i], directions_.l_z[i]};
+    context_.observer->lit(vertex(a.path, material, l), light, weights_, factors_);
+  }
 }
 
 void TileRenderer::go_on(std::size_t material, int bounce) {
@@ -248,14 +272,15 @@ void TileRenderer::go_on(std::size_t material, int bounce) {
       lobe = !mirror;
       chance = 0.5;
     }
-    if (mirror) reflect_in_mirror(shader, i, chance);
+    if (mirror) reflect_in_mirror(material, i, chance);
     if (lobe) reflect_by_model(shader, i, bounce, chance);
   }
   lap(&RenderWork::draw_s);
-  add_reflected(shader);
+  add_reflected(material);
 }
 
-void TileRenderer::reflect_in_mirror(const MaterialShader& shader, std::uint32_t i, double chance) {
+void TileRenderer::reflect_in_mirror(std::size_t material, std::uint32_t i, double chance) {
+  const MaterialShader& shader = context_.materials[material];
   const Direction& v = to_eye_[i];
   const SurfacePoint& s = surfaces_[i];
   const Vec3 direction = s.shading.to_world(-v.x, -v.y, v.z);
@@ -279,6 +304,10 @@ void TileRenderer::reflect_in_mirror(const MaterialShader& shader, std::uint32_t
                          .sample = path.sample,
                          .normal = s.shading.z});
   ++work_.mirror_rays;
+  if (context_.observer == nullptr) return;
+  factors_.clear();
+  for (std::size_t c = 0; c < channels_; ++c) factors_.push_back(shader.mirror_weight(v, c));
+  next_.paths.back().observed = context_.observer->goes_on(vertex(i, material, mirrored(v)), true, factors_);
 }
 
 // Draws a direction; what it weighs is known when the whole batch is evaluated.
@@ -308,8 +337,9 @@ void TileRenderer::reflect_by_model(const MaterialShader& shader, std::uint32_t 
   next_.throughput.insert(next_.throughput.end(), channels_, 0.0);
 }
 
-void TileRenderer::add_reflected(const MaterialShader& shader) {
+void TileRenderer::add_reflected(std::size_t material) {
   if (arrivals_.empty()) return;
+  const MaterialShader& shader = context_.materials[material];
   shader.values(directions_, scratch_, values_);
   const std::size_t n = arrivals_.size();
   work_.evaluations += n;
@@ -324,6 +354,11 @@ void TileRenderer::add_reflected(const MaterialShader& shader) {
     for (std::size_t c = 0; c < channels_; ++c) {
       next_.throughput[at * channels_ + c] = now_.throughput[a.path * channels_ + c] * a.weight * values_[c * n + k];
     }
+    if (context_.observer == nullptr) continue;
+    factors_.clear();
+    for (std::size_t c = 0; c < channels_; ++c) factors_.push_back(values_[c * n + k]);
+    const Direction l{directions_.l_x[k], directions_.l_y[k], directions_.l_z[k]};
+    next_.paths[at].observed = context_.observer->goes_on(vertex(a.path, material, l), false, factors_);
   }
 }
 

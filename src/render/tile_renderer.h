@@ -18,7 +18,8 @@ struct RenderContext {
   const std::vector<LightSampler>& lights;
   const std::vector<MaterialShader>& materials;
   LightSampling sampling;
-  Frame camera;  ///< x to the right, y up, z back
+  PathObserver* observer;  ///< null: nobody listens
+  Frame camera;            ///< x to the right, y up, z back
 
   [[nodiscard]] std::size_t channels() const noexcept { return scene.channels.size(); }
 };
@@ -40,9 +41,10 @@ class TileRenderer {
     std::size_t pixel;
     std::uint64_t key;  // of its random numbers: pixel and which branch of reflections it is
     std::uint32_t sample;
-    Vec3 normal;                // of the surface that it left
-    double pdf = 0.0;           // of its direction by the model's sampling; 0 for the camera's and mirrors' rays
-    double light_chance = 1.0;  // with which that surface drew each light
+    Vec3 normal;                 // of the surface that it left
+    double pdf = 0.0;            // of its direction by the model's sampling; 0 for the camera's and mirrors' rays
+    double light_chance = 1.0;   // with which that surface drew each light
+    std::uint32_t observed = 0;  // the observer's name of it
   };
   struct Paths {
     std::vector<Ray> rays;
@@ -69,11 +71,13 @@ class TileRenderer {
   void find_surfaces();
   void light_directly(std::size_t material, int bounce);
   void draw_light(std::size_t material, std::size_t light, double chance, const std::vector<std::uint32_t>& hits);
-  void add_arrivals(std::size_t material, bool coherent);
+  void add_arrivals(std::size_t material, std::size_t light, bool coherent);
+  void tell_of_arrivals(std::size_t material, std::size_t light, std::size_t count);
   void go_on(std::size_t material, int bounce);
-  void reflect_in_mirror(const MaterialShader& shader, std::uint32_t path, double chance);
+  void reflect_in_mirror(std::size_t material, std::uint32_t path, double chance);
   void reflect_by_model(const MaterialShader& shader, std::uint32_t path, int bounce, double chance);
-  void add_reflected(const MaterialShader& shader);
+  void add_reflected(std::size_t material);
+  [[nodiscard]] PathVertex vertex(std::uint32_t path, std::size_t material, const Direction& l) const;
   void lap(double RenderWork::*phase);
 
   const RenderContext& context_;
@@ -92,7 +96,7 @@ class TileRenderer {
   DirectionBatch directions_;
   std::vector<double> values_;
   MaterialShader::Scratch scratch_;
-  std::vector<double> sums_;
+  std::vector<double> weights_, factors_;  // of one vertex, for the observer
   std::span<double> radiance_;
   RenderWork work_;
   std::chrono::steady_clock::time_point since_;

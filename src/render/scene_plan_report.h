@@ -1,0 +1,20 @@
+#pragma once
+// A scene's plan as text and JSON.
+
+#include <string>
+
+#include "../report/fit_report.h"
+#include "scene_plan.h"
+
+namespace goniofit {
+
+[[nodiscard]] std::string scene_plan_text(const ScenePlan& plan, const ReportStyle& style);
+
+/// {"tolerance", "predicted_error", "seconds", "materials": [{"name", "planned": null or the plan as plan_json() has
+/// it, "why_not", "theta_i_deg", "theta_r_max_deg", "left_out", "material": as a file holds it}]}.
+[[nodiscard]] std::string scene_plan_json(const ScenePlan& plan);
+
+/// "coh, fs", then terms that are left out: "shadowing"; "nothing" where all is kept.
+[[nodiscard]] std::string left_out_text(const Plan& plan);
+
+}  // namespace goniofit

@@ -69,6 +69,11 @@ Rendering render(const Scene& scene, std::span<const RenderMaterial> materials, 
     throw usage_error(std::to_string(materials.size()) + " materials for a scene of " +
                       std::to_string(scene.materials.size()) + ", expected as many");
   }
+  for (const RenderMaterial& m : materials) {
+    if (m.material.channels.size() == scene.channels.size()) continue;
+    throw usage_error("a material of " + std::to_string(m.material.channels.size()) + " channels in a scene of " +
+                      std::to_string(scene.channels.size()) + ", expected as many");
+  }
   const Clock::time_point start = Clock::now();
   const Tracer tracer(scene);
   std::vector<LightSampler> lights;

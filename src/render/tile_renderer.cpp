@@ -55,7 +55,7 @@ void TileRenderer::render(const Tile& tile, std::span<double> radiance) {
     start_paths(tile, first, std::min(at_once, image.samples - first));
     for (int bounce = 0; now_.size() > 0; ++bounce) {
       trace();
-      collect_emission(bounce);
+      collect_emission();
       next_.clear();
       if (bounce < image.max_bounces) {
         find_surfaces();
@@ -113,7 +113,7 @@ void TileRenderer::add_emission(std::size_t path, const LightSampler::Emission& 
 
 // What the rays themselves run into. A ray that the model drew shares a light that has a size with the drawing of
 // lights.
-void TileRenderer::collect_emission(int bounce) {
+void TileRenderer::collect_emission() {
   const std::size_t objects = context_.scene.objects.size();
   for (std::size_t i = 0; i < now_.size(); ++i) {
     const Hit& hit = hits_[i];
@@ -137,7 +137,6 @@ void TileRenderer::collect_emission(int bounce) {
       }
     }
   }
-  (void)bounce;
 }
 
 void TileRenderer::find_surfaces() {
@@ -193,7 +192,8 @@ void TileRenderer::draw_light(std::size_t material, std::size_t light, double ch
       const double pdf = chance * drawn->pdf;
       weight *= pdf / (pdf + context_.materials[material].pdf(l, to_eye_[i]));
     }
-    shadow_rays_.push_back({off_surface(s), drawn->direction, drawn->distance});
+    // It starts as much nearer to the light as it starts off the surface, at most.
+    shadow_rays_.push_back({off_surface(s), drawn->direction, drawn->distance - 2.0 * s.clearance});
     arrivals_.push_back({i, weight, drawn->spectrum});
     from_light_.push_back(l);
   }

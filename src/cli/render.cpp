@@ -132,6 +132,7 @@ Result render_scene(const Options& options) {
     return result;
   }
   std::vector<Picture> pictures;
+  if (result.plan) scene = planned_scene(scene, *result.plan);
   add(result, render_with_progress(scene, materials, options, "render", line), pictures);
   result.picture = std::move(pictures.front());
   return result;

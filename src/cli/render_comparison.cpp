@@ -46,16 +46,18 @@ RenderComparison compare_renders(const Scene& scene, const ScenePlan& plan, std:
                                  const std::function<void(const std::string&)>& tell) {
   struct Way {
     const char* name;
+    Scene scene;
     std::vector<RenderMaterial> materials;
     std::vector<double> seconds{};
     Rendering last{};
   };
-  std::array<Way, 3> ways{Way{"by the plan", plan.planned}, Way{"with all effects", plan.exact},
-                          Way{"as published", published_materials(scene)}};
+  std::array<Way, 3> ways{Way{"by the plan", planned_scene(scene, plan), plan.planned},
+                          Way{"with all effects", scene, plan.exact},
+                          Way{"as published", scene, published_materials(scene)}};
   for (std::size_t round = 0; round < rounds; ++round) {
     for (Way& way : ways) {
       tell(fmt::format("round {} of {}: {}", round + 1, rounds, way.name));
-      way.last = render(scene, way.materials, {.threads = threads});
+      way.last = render(way.scene, way.materials, {.threads = threads});
       way.seconds.push_back(way.last.seconds);
     }
   }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <memory>
+#include <mutex>
 
 #include "render/tile_renderer.h"
 #include "support/error.h"
@@ -15,6 +17,33 @@ constexpr std::size_t tile_size = 32;
 
 using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+// Renderers that wait for a tile: each keeps its memory.
+class RendererPool {
+ public:
+  explicit RendererPool(const RenderContext& context) : context_(context) {}
+  std::unique_ptr<TileRenderer> take() {
+    const std::scoped_lock lock(mutex_);
+    if (idle_.empty()) return std::make_unique<TileRenderer>(context_);
+    std::unique_ptr<TileRenderer> renderer = std::move(idle_.back());
+    idle_.pop_back();
+    return renderer;
+  }
+  void give_back(std::unique_ptr<TileRenderer> renderer) {
+    const std::scoped_lock lock(mutex_);
+    idle_.push_back(std::move(renderer));
+  }
+  [[nodiscard]] RenderWork work() const {
+    RenderWork sum;
+    for (const auto& renderer : idle_) sum += renderer->work();
+    return sum;
+  }
+
+ private:
+  const RenderContext& context_;
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<TileRenderer>> idle_;
+};
 
 std::vector<Tile> tiles_of(const ImageSettings& image) {
   std::vector<Tile> tiles;
@@ -69,6 +98,11 @@ Rendering render(const Scene& scene, std::span<const RenderMaterial> materials, 
     throw usage_error(std::to_string(materials.size()) + " materials for a scene of " +
                       std::to_string(scene.materials.size()) + ", expected as many");
   }
+  for (const RenderMaterial& m : materials) {
+    if (m.material.channels.size() == scene.channels.size()) continue;
+    throw usage_error("a material of " + std::to_string(m.material.channels.size()) + " channels in a scene of " +
+                      std::to_string(scene.channels.size()) + ", expected as many");
+  }
   const Clock::time_point start = Clock::now();
   const Tracer tracer(scene);
   std::vector<LightSampler> lights;
@@ -85,18 +119,18 @@ Rendering render(const Scene& scene, std::span<const RenderMaterial> materials, 
   const RenderContext context{
       scene, tracer, lights, shaders, settings.sampling, settings.observer, camera_frame(scene.camera)};
   const std::vector<Tile> tiles = tiles_of(scene.image);
-  std::vector<RenderWork> work(tiles.size());
+  RendererPool pool(context);
   const Clock::time_point first_ray = Clock::now();
   parallel_for(
       tiles.size(),
       [&](std::size_t i) {
-        TileRenderer renderer(context);
-        renderer.render(tiles[i], result.picture.radiance);
-        work[i] = renderer.work();
+        std::unique_ptr<TileRenderer> renderer = pool.take();
+        renderer->render(tiles[i], result.picture.radiance);
+        pool.give_back(std::move(renderer));
       },
       progress, settings.observer != nullptr ? 1 : settings.threads);
   result.seconds = seconds_since(first_ray);
-  for (const RenderWork& w : work) result.work += w;
+  result.work = pool.work();
   return result;
 }
 

@@ -33,6 +33,9 @@ struct ImageSettings {
   std::size_t width = 512, height = 512;
   std::size_t samples = 16;  ///< a pixel; 1 is the pixel's centre, more are stratified over it
   int max_bounces = 3;       ///< reflections of one light path; 1 is direct light alone
+  /// Part of the camera's hits from which a path goes on, weighted for the others: what comes by way of other surfaces
+  /// needs fewer samples than what comes straight from lights. Mirrors' rays always go on.
+  double indirect = 1.0;
   std::uint64_t seed = 1;
   std::optional<double> exposure_stops{};  ///< of the PNG; null: by the image itself
 };

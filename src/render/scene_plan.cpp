@@ -1,17 +1,17 @@
 #include "render/scene_plan.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
-#include <map>
+#include <limits>
 #include <span>
 #include <utility>
 
 #include <fmt/format.h>
 
-#include "brdf/evaluator.h"
 #include "cost/reference.h"
-#include "geometry/angles.h"
+#include "render/image_error.h"
 #include "render/picture_difference.h"
 #include "support/error.h"
 #include "support/text.h"
@@ -32,172 +32,41 @@ std::vector<RenderMaterial> changed(const Scene& scene, const Change& change) {
   return materials;
 }
 
-// A weighted mean and its standard error.
-class Moments {
- public:
-  void add(double weight, double x) noexcept {
-    w_ += weight;
-    wx_ += weight * x;
-    ww_ += weight * weight;
-    wwx_ += weight * weight * x;
-    wwxx_ += weight * weight * x * x;
-  }
-  [[nodiscard]] double mean() const noexcept { return w_ > 0.0 ? wx_ / w_ : 0.0; }
-  [[nodiscard]] double standard_error() const noexcept {
-    if (!(w_ > 0.0)) return 0.0;
-    return std::sqrt(std::max(0.0, wwxx_ - 2.0 * mean() * wwx_ + mean() * mean() * ww_)) / w_;
-  }
-
- private:
-  double w_ = 0.0, wx_ = 0.0, ww_ = 0.0, wwx_ = 0.0, wwxx_ = 0.0;
+// A small picture and what it took, the least of a few times.
+struct SmallPicture {
+  Picture picture;
+  double seconds;
 };
-
-// What an error of a material does to the image: the relative RMS over pixels and channels, each by the part of its
-// light that the material sends, so that a pixel which the material hardly touches does not thin out one that shows it.
-class ImageError {
- public:
-  ImageError(const SceneSurvey& survey, const MaterialSurvey& material, std::size_t channels)
-      : survey_(survey), material_(material), channels_(channels), lit_from_(lit_from(survey.radiance, channels)) {
-    std::map<std::uint32_t, std::size_t> rows;
-    const auto row_of = [&](std::uint32_t pixel) {
-      const auto [at, is_new] = rows.try_emplace(pixel, pixels_.size());
-      if (is_new) pixels_.push_back(pixel);
-      return at->second;
-    };
-    for (const std::uint32_t p : material.lobes.pixel) lobe_rows_.push_back(row_of(p));
-    for (const std::uint32_t p : material.mirrors.pixel) mirror_rows_.push_back(row_of(p));
+SmallPicture small_picture(const Scene& scene, std::span<const RenderMaterial> materials) {
+  constexpr int times = 3;
+  SmallPicture small{{}, std::numeric_limits<double>::infinity()};
+  for (int i = 0; i < times; ++i) {
+    Rendering r = render(scene, materials);
+    small.seconds = std::min(small.seconds, r.seconds);
+    small.picture = std::move(r.picture);
   }
-
-  [[nodiscard]] ModelError operator()(const ModelValues& reference, const ModelValues& other) const {
-    const std::vector<double> sent = totals(reference.f, reference.mirror_energy, {}, {});
-    const std::vector<double> change = totals(other.f, other.mirror_energy, reference.f, reference.mirror_energy);
-    ModelError e;
-    Moments squares;
-    double changes = 0.0;
-    double light = 0.0;
-    for (std::size_t row = 0; row < pixels_.size(); ++row) {
-      for (std::size_t c = 0; c < channels_; ++c) {
-        const double radiance = survey_.radiance[pixels_[row] * channels_ + c];
-        if (!(radiance > lit_from_[c])) continue;
-        const double relative = change[row * channels_ + c] / radiance;
-        squares.add(std::min(1.0, sent[row * channels_ + c] / radiance), relative * relative);
-        changes += std::fabs(change[row * channels_ + c]);
-        light += radiance;
-        e.max_relative = std::max(e.max_relative, std::fabs(relative));
-      }
-    }
-    if (!(light > 0.0)) return e;
-    e.l1 = changes / light;
-    e.rms_relative = e.worst_l1 = std::sqrt(squares.mean());
-    e.worst_l1_bound = std::sqrt(squares.mean() + 3.0 * squares.standard_error());
-    return e;
-  }
-
- private:
-  // Per pixel and channel the sum of weight * (value - from).
-  [[nodiscard]] std::vector<double> totals(const std::vector<double>& f, const std::vector<double>& mirror,
-                                           std::span<const double> from_f, std::span<const double> from_mirror) const {
-    std::vector<double> sums(pixels_.size() * channels_, 0.0);
-    const auto add = [&](const PathFactors& factors, const std::vector<std::size_t>& rows,
-                         const std::vector<double>& values, std::span<const double> from) {
-      const std::size_t n = factors.size();
-      for (std::size_t c = 0; c < channels_; ++c) {
-        for (std::size_t i = 0; i < n; ++i) {
-          const double value = values[c * n + i] - (from.empty() ? 0.0 : from[c * n + i]);
-          sums[rows[i] * channels_ + c] += factors.weights[c * n + i] * value;
-        }
-      }
-    };
-    add(material_.lobes, lobe_rows_, f, from_f);
-    add(material_.mirrors, mirror_rows_, mirror, from_mirror);
-    return sums;
-  }
-
-  const SceneSurvey& survey_;
-  const MaterialSurvey& material_;
-  std::size_t channels_;
-  std::vector<double> lit_from_;
-  std::vector<std::uint32_t> pixels_;
-  std::vector<std::size_t> lobe_rows_, mirror_rows_;
-};
-
-ErrorSamples directions_of(const MaterialSurvey& s, const Material& material) {
-  return {.theta_i_deg = {},
-          .first = {0, s.lobes.size()},
-          .directions = s.lobes.directions,
-          .weights = {},
-          .drawn = 1.0,
-          .mirrors = s.mirrors.directions,
-          .theta_r_max_deg = 90.0,
-          .solid_angle_sr = material.solid_angle_sr};
-}
-
-double disc_solid_angle(double diameter_deg) { return 2.0 * pi * (1.0 - cos_deg(0.5 * diameter_deg)); }
-
-// Radiance of what a mirror shows of a light.
-double image_radiance(const Light& light, std::size_t channel) {
-  struct Radiance {
-    std::size_t c;
-    double operator()(const PointLight& l) const { return l.intensity[c] / (pi * l.radius * l.radius); }
-    double operator()(const DirectionalLight& l) const { return l.irradiance[c] / disc_solid_angle(l.diameter_deg); }
-    double operator()(const AreaLight& l) const { return l.radiance[c]; }
-    double operator()(const EnvironmentLight& l) const { return l.radiance[c]; }
-  };
-  return std::visit(Radiance{channel}, light);
-}
-
-// An image of a light is a few pixels of a picture, which no mean over pixels notices: coh stays where it stands out.
-void keep_mirror_images(const Scene& scene, const SceneSurvey& survey, const MaterialSurvey& s, const Material& exact,
-                        double tolerance, PlanSamples& samples) {
-  if (!acting_effects(exact).has(Effect::coh)) return;
-  const Evaluator evaluator(exact);
-  const std::size_t channels = scene.channels.size();
-  double most = 0.0;
-  std::size_t light = 0;
-  for (const MirrorImage& image : s.images) {
-    const Pair pair = make_pair(mirrored(image.v), image.v);
-    for (std::size_t c = 0; c < channels; ++c) {
-      const double part = evaluator.value(pair, c, Effect::coh) * pair.cos_i * exact.solid_angle_sr;
-      const double around = survey.radiance[image.pixel * channels + c];
-      const double contrast = around > 0.0 ? part * image_radiance(scene.lights[image.light], c) / around : 0.0;
-      if (contrast > most) {
-        most = contrast;
-        light = image.light;
-      }
-    }
-  }
-  if (!(most > tolerance)) return;
-  samples.keep[Effect::coh] = "the mirror image of lights/" + std::to_string(light) + ", " +
-                              fmt::format("{:.2g}", most) + " times as bright as what is around it, would be missing";
+  return small;
 }
 
 class Planner {
  public:
   Planner(const Scene& scene, double tolerance, const ScenePlanSettings& settings, const ScenePlanProgress& progress)
-      : scene_(scene), tolerance_(tolerance), settings_(settings), progress_(progress) {}
+      : scene_(scene),
+        tolerance_(tolerance),
+        settings_(settings),
+        progress_(progress),
+        small_(in_small(scene, settings.survey.pixels, 2 * settings.survey.samples, subkey(settings.seed, "check"))) {}
 
   [[nodiscard]] ScenePlan run() {
     const auto start = std::chrono::steady_clock::now();
     result_.tolerance = tolerance_;
     result_.exact = exact_materials(scene_);
+    plan_bounces();
     tell("the paths of light");
     SurveySettings survey_settings = settings_.survey;
     survey_settings.seed = settings_.seed;
-    survey_ = survey(scene_, result_.exact, survey_settings);
-    // Small pictures with other random numbers than the survey's.
-    const Scene small =
-        in_small(scene_, settings_.survey.pixels, 2 * settings_.survey.samples, subkey(settings_.seed, "check"));
-    const Picture exact = render(small, result_.exact).picture;
-    double aim = tolerance_;
-    constexpr int most_attempts = 5;
-    for (int attempt = 1;; ++attempt) {
-      plan_materials(aim);
-      tell("the error of a small picture");
-      result_.predicted_error = picture_difference(exact, render(small, result_.planned).picture).rms_relative;
-      if (result_.predicted_error <= tolerance_ || attempt == most_attempts) break;
-      aim *= 0.9 * std::min(1.0, tolerance_ / result_.predicted_error);
-    }
-    if (result_.predicted_error > tolerance_) result_.planned = result_.exact;
+    survey_ = survey(planned_scene(scene_, result_), result_.exact, survey_settings);
+    plan_until_it_holds();
     for (std::size_t m = 0; m < result_.materials.size(); ++m) {
       result_.materials[m].survey = std::move(survey_.materials[m]);
     }
@@ -208,6 +77,45 @@ class Planner {
  private:
   void tell(const std::string& what) const {
     if (progress_) progress_(what);
+  }
+
+  // The fewest reflections whose picture stays within half of the tolerance; errors of materials have the rest.
+  void plan_bounces() {
+    BouncePlan& b = result_.bounces;
+    b.given = b.planned = scene_.image.max_bounces;
+    tell("light that is reflected more than once");
+    const SmallPicture all = small_picture(small_, result_.exact);
+    exact_ = all.picture;
+    Scene fewer = small_;
+    for (int bounces = b.given - 1; bounces >= 1; --bounces) {
+      fewer.image.max_bounces = bounces;
+      const SmallPicture less = small_picture(fewer, result_.exact);
+      const double change = picture_difference(exact_, less.picture).rms_relative;
+      const bool enough = change <= 0.5 * tolerance_;
+      if (enough || bounces + 1 == b.given) {
+        b.change = change;
+        b.saves = 1.0 - less.seconds / all.seconds;
+      }
+      if (!enough) break;
+      b.planned = bounces;
+    }
+  }
+
+  // Small pictures by other random numbers than the survey's have the last word.
+  void plan_until_it_holds() {
+    const double left_out = result_.bounces.planned < result_.bounces.given ? result_.bounces.change : 0.0;
+    double aim = std::sqrt(tolerance_ * tolerance_ - left_out * left_out);
+    const Scene planned_small = planned_scene(small_, result_);
+    constexpr int most_attempts = 5;
+    for (int attempt = 1; attempt <= most_attempts; ++attempt) {
+      plan_materials(aim);
+      tell("the error of a small picture");
+      result_.predicted_error = picture_difference(exact_, render(planned_small, result_.planned).picture).rms_relative;
+      if (result_.predicted_error <= tolerance_) return;
+      aim *= 0.9 * tolerance_ / result_.predicted_error;
+    }
+    result_.planned = result_.exact;
+    result_.predicted_error = left_out;
   }
 
   void plan_materials(double aim) {
@@ -227,16 +135,25 @@ class Planner {
         tell("the plan of " + given.name);
         p.plan = planned(given.material, result_.exact[m].material, s, aim);
         result_.planned[m] = {p.plan->material, compile_settings(), true};
+        add_times(result_.exact[m].material, p);
       }
       result_.materials.push_back(std::move(p));
     }
   }
 
   [[nodiscard]] Plan planned(const Material& given, const Material& exact, const MaterialSurvey& s, double aim) const {
-    PlanSamples samples{.directions = directions_of(s, exact),
+    const std::vector<StandingImage> images = standing_images(scene_, survey_, s, exact, tolerance_);
+    PlanSamples samples{.directions = image_error_samples(s, images, exact.solid_angle_sr),
                         .error = ImageError(survey_, s, scene_.channels.size()),
                         .channels = channels_in(given, {})};
-    keep_mirror_images(scene_, survey_, s, exact, tolerance_, samples);
+    const auto brightest = std::max_element(images.begin(), images.end(),
+                                            [](const auto& a, const auto& b) { return a.contrast < b.contrast; });
+    if (brightest != images.end()) {
+      samples.keep[Effect::coh] = fmt::format(
+          "the mirror image of lights/{}, {:.2g} times as bright as its surroundings, "
+          "would be missing",
+          brightest->light, brightest->contrast);
+    }
     PlanSettings plan_settings = settings_.plan;
     plan_settings.compile = compile_settings();
     plan_settings.arithmetic = Arithmetic::batch_float;
@@ -245,6 +162,19 @@ class Planner {
     p.domain = s.domain;
     p.tolerance = tolerance_;
     return p;
+  }
+
+  void add_times(const Material& exact, MaterialPlan& p) const {
+    const DirectionBatch pairs = random_pairs(settings_.plan.pairs, settings_.seed);
+    const std::array tasks{evaluation_task({.name = {},
+                                            .material = p.plan->material,
+                                            .compile = compile_settings(),
+                                            .arithmetic = Arithmetic::batch_float},
+                                           pairs),
+                           evaluation_task({.name = {}, .material = exact}, pairs)};
+    const std::vector<Timing> times = time_interleaved(tasks, 0, settings_.plan.timing);
+    p.ns = times[0].median_ns;
+    p.ns_exact = times[1].median_ns;
   }
 
   // Terms that are a tenth as exact as the picture cost less and are not seen.
@@ -256,6 +186,8 @@ class Planner {
   double tolerance_;
   const ScenePlanSettings& settings_;
   const ScenePlanProgress& progress_;
+  Scene small_;
+  Picture exact_;  // small, all effects
   SceneSurvey survey_;
   ScenePlan result_;
 };
@@ -271,6 +203,11 @@ std::vector<RenderMaterial> published_materials(const Scene& scene) {
     m.terms = published_terms(m);
     return m;
   });
+}
+
+Scene planned_scene(Scene scene, const ScenePlan& plan) {
+  scene.image.max_bounces = plan.bounces.planned;
+  return scene;
 }
 
 ScenePlan plan_scene(const Scene& scene, double tolerance, const ScenePlanSettings& settings,

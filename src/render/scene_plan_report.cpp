@@ -21,6 +21,16 @@ std::string angles_text(const Domain& d) {
                      angle_text(d.theta_i_max_deg), angle_text(d.theta_r_max_deg));
 }
 
+std::string bounces_text(const BouncePlan& b) {
+  if (b.given == 1) return "light is followed for 1 reflection, as the scene asks";
+  if (b.planned == b.given) {
+    return fmt::format("light is followed for {} reflections: the last left out would change {}", b.given,
+                       percent_text(b.change));
+  }
+  return fmt::format("light after {} reflection{} left out, of {}: changes {}, saves {}", b.planned,
+                     b.planned == 1 ? "" : "s", b.given, percent_text(b.change), percent_text(b.saves));
+}
+
 std::string simpler_terms_text(const Plan& p) {
   std::string text;
   for (const PlanLine& line : p.lines) {
@@ -66,10 +76,11 @@ std::string scene_plan_text(const ScenePlan& plan, const ReportStyle& style) {
     if (!m.plan) continue;
     const Plan& p = *m.plan;
     table.add_row({printable(m.name), effects_text(p.material.components), left_out_text(p), simpler_terms_text(p),
-                   percent_text(p.error.worst_l1), fmt::format("{:.2g}", p.ns), fmt::format("{:.2g}", p.ns_reference),
-                   fmt::format("{:.2g} x", p.ratio_reference)});
+                   percent_text(p.error.worst_l1), fmt::format("{:.2g}", m.ns), fmt::format("{:.2g}", m.ns_exact),
+                   fmt::format("{:.2g} x", m.ns_exact / m.ns)});
   }
   if (!table.empty()) text += table.str(0, style.color) + "\n";
+  text += bounces_text(plan.bounces) + "\n";
   text += fmt::format(
       "predicted error of the image {} (relative RMS over lit pixels, measured on small pictures), asked for {}\n"
       "planned in {}\n",
@@ -78,7 +89,9 @@ std::string scene_plan_text(const ScenePlan& plan, const ReportStyle& style) {
 }
 
 std::string scene_plan_json(const ScenePlan& plan) {
+  const BouncePlan& b = plan.bounces;
   Json out{{"tolerance", plan.tolerance},
+           {"reflections", {{"given", b.given}, {"planned", b.planned}, {"change", b.change}, {"saves", b.saves}}},
            {"predicted_error", plan.predicted_error},
            {"seconds", plan.seconds},
            {"materials", Json::array()}};
@@ -86,6 +99,8 @@ std::string scene_plan_json(const ScenePlan& plan) {
     const MaterialPlan& m = plan.materials[i];
     Json entry{{"name", m.name}, {"planned", nullptr}};
     if (m.plan) {
+      entry["ns_per_evaluation"] = m.ns;
+      entry["ns_exact"] = m.ns_exact;
       entry["planned"] = Json::parse(plan_json(*m.plan));
       entry["left_out"] = left_out_text(*m.plan);
     } else {

@@ -10,8 +10,9 @@ namespace goniofit {
 
 [[nodiscard]] std::string scene_plan_text(const ScenePlan& plan, const ReportStyle& style);
 
-/// {"tolerance", "predicted_error", "seconds", "materials": [{"name", "planned": null or the plan as plan_json() has
-/// it, "why_not", "theta_i_deg", "theta_r_max_deg", "left_out", "material": as a file holds it}]}.
+/// {"tolerance", "predicted_error", "seconds", "reflections": {"given", "planned", "change", "saves"}, "materials":
+/// [{"name", "planned": null or the plan as plan_json() has it, "why_not", "theta_i_deg", "theta_r_max_deg",
+/// "left_out", "ns_per_evaluation", "ns_exact", "material": as a file holds it}]}.
 [[nodiscard]] std::string scene_plan_json(const ScenePlan& plan);
 
 /// "coh, fs", then terms that are left out: "shadowing"; "nothing" where all is kept.

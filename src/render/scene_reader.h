@@ -12,6 +12,7 @@
 //   height = 512
 //   samples = 16                      # a pixel
 //   max_bounces = 3                   # 1: direct light alone
+//   indirect = 1                      # part of the samples that follow light beyond the first surface, above 0 to 1
 //   seed = 1
 //   exposure = "auto"                 # or stops: the PNG shows 2^stops times the radiance
 //

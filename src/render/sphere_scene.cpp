@@ -8,7 +8,7 @@ namespace goniofit {
 
 Scene sphere_scene(const Material& material, const SphereSettings& settings) {
   constexpr double eye_distance = 20.0;
-  constexpr double light_distance = 10.0;  // of its centre
+  constexpr double light_distance = 40.0;  // from the centre, beyond the eye: which would see it otherwise
   Scene scene;
   for (const MaterialChannel& c : material.channels) scene.channels.push_back({c.name, c.wavelength_um});
   scene.materials.push_back({"sphere", {}, material});
@@ -24,7 +24,7 @@ Scene sphere_scene(const Material& material, const SphereSettings& settings) {
   light.position = light_distance * Vec3{-aside, -std::cos(angle), aside};
   const double to_surface = light_distance - 1.0;
   light.intensity.assign(scene.channels.size(), pi * to_surface * to_surface);
-  light.radius = 0.25;
+  light.radius = 1.0;
   scene.lights.emplace_back(light);
   scene.image.width = scene.image.height = settings.size;
   scene.image.samples = settings.samples;

@@ -26,6 +26,21 @@ Direction in_frame(const Frame& frame, const Vec3& v) noexcept {
   return {dot(v, frame.x), dot(v, frame.y), dot(v, frame.z)};
 }
 
+void resize(DirectionBatch& batch, std::size_t n) {
+  for (std::vector<double>* part : {&batch.l_x, &batch.l_y, &batch.l_z, &batch.v_x, &batch.v_y, &batch.v_z}) {
+    part->resize(n);
+  }
+}
+
+void set(DirectionBatch& batch, std::size_t i, const Direction& l, const Direction& v) {
+  batch.l_x[i] = l.x;
+  batch.l_y[i] = l.y;
+  batch.l_z[i] = l.z;
+  batch.v_x[i] = v.x;
+  batch.v_y[i] = v.y;
+  batch.v_z[i] = v.z;
+}
+
 Vec3 off_surface(const SurfacePoint& s) noexcept { return s.position + s.clearance * s.normal; }
 
 }  // namespace
@@ -55,7 +70,7 @@ void TileRenderer::render(const Tile& tile, std::span<double> radiance) {
     start_paths(tile, first, std::min(at_once, image.samples - first));
     for (int bounce = 0; now_.size() > 0; ++bounce) {
       trace();
-      collect_emission(bounce);
+      collect_emission();
       next_.clear();
       if (bounce < image.max_bounces) {
         find_surfaces();
@@ -122,7 +137,7 @@ PathVertex TileRenderer::vertex(std::uint32_t path, std::size_t material, const 
 
 // What the rays themselves run into. A ray that the model drew shares a light that has a size with the drawing of
 // lights.
-void TileRenderer::collect_emission(int bounce) {
+void TileRenderer::collect_emission() {
   const std::size_t objects = context_.scene.objects.size();
   for (std::size_t i = 0; i < now_.size(); ++i) {
     const Hit& hit = hits_[i];
@@ -146,7 +161,6 @@ void TileRenderer::collect_emission(int bounce) {
       }
     }
   }
-  (void)bounce;
 }
 
 void TileRenderer::find_surfaces() {
@@ -202,7 +216,8 @@ void TileRenderer::draw_light(std::size_t material, std::size_t light, double ch
       const double pdf = chance * drawn->pdf;
       weight *= pdf / (pdf + context_.materials[material].pdf(l, to_eye_[i]));
     }
-    shadow_rays_.push_back({off_surface(s), drawn->direction, drawn->distance});
+    // It starts as much nearer to the light as it starts off the surface, at most.
+    shadow_rays_.push_back({off_surface(s), drawn->direction, drawn->distance - 2.0 * s.clearance});
     arrivals_.push_back({i, weight, drawn->spectrum});
     from_light_.push_back(l);
   }
@@ -216,14 +231,15 @@ void TileRenderer::add_arrivals(std::size_t material, std::size_t light, bool co
   context_.tracer.occluded(shadow_rays_, blocked_, coherent);
   work_.shadow_rays += shadow_rays_.size();
   lap(&RenderWork::trace_s);
-  directions_ = {};
+  resize(directions_, arrivals_.size());
   std::size_t kept = 0;
   for (std::size_t i = 0; i < arrivals_.size(); ++i) {
     if (blocked_[i] != 0) continue;
-    directions_.push_back(from_light_[i], to_eye_[arrivals_[i].path]);
+    set(directions_, kept, from_light_[i], to_eye_[arrivals_[i].path]);
     arrivals_[kept++] = arrivals_[i];
   }
   if (kept == 0) return;
+  resize(directions_, kept);
   lap(&RenderWork::other_s);
   context_.materials[material].values(directions_, scratch_, values_);
   work_.evaluations += kept;
@@ -261,7 +277,6 @@ void TileRenderer::go_on(std::size_t material, int bounce) {
   const bool lobes = shader.has_lobes() && (!last || (sized_lights_ && context_.sampling != LightSampling::lights));
   arrivals_.clear();
   from_light_.clear();
-  directions_ = {};
   lap(&RenderWork::other_s);
   for (const std::uint32_t i : of_material_[material]) {
     const Path& path = now_.paths[i];
@@ -314,17 +329,18 @@ void TileRenderer::reflect_in_mirror(std::size_t material, std::uint32_t i, doub
 void TileRenderer::reflect_by_model(const MaterialShader& shader, std::uint32_t i, int bounce, double chance) {
   const Path& path = now_.paths[i];
   const auto which = random_pair(path.key, for_lobe, path.sample);
-  if (bounce >= first_roulette) {
-    if (!(which[1] < shader.survival())) return;
-    chance *= shader.survival();
-  }
+  const double goes_on = bounce == 0                ? context_.scene.image.indirect
+                         : bounce >= first_roulette ? shader.survival()
+                                                    : 1.0;
+  if (!(which[1] < goes_on)) return;
+  chance *= goes_on;
   const auto u = random_pair(path.key, for_direction, path.sample);
   const auto drawn = shader.draw(to_eye_[i], {which[0], u[0], u[1]});
   if (!drawn) return;
   const Direction& l = drawn->direction;
   const Vec3 direction = surfaces_[i].shading.to_world(l.x, l.y, l.z);
   if (!(dot(direction, surfaces_[i].normal) > 0.0)) return;
-  directions_.push_back(l, to_eye_[i]);
+  from_light_.push_back(l);
   arrivals_.push_back({i, l.z / (drawn->pdf * chance), nullptr});
   const double light_chance = bounce == 0 ? 1.0 : 1.0 / static_cast<double>(context_.lights.size());
   next_.rays.push_back({off_surface(surfaces_[i]), direction});
@@ -340,6 +356,8 @@ void TileRenderer::reflect_by_model(const MaterialShader& shader, std::uint32_t 
 void TileRenderer::add_reflected(std::size_t material) {
   if (arrivals_.empty()) return;
   const MaterialShader& shader = context_.materials[material];
+  resize(directions_, arrivals_.size());
+  for (std::size_t k = 0; k < arrivals_.size(); ++k) set(directions_, k, from_light_[k], to_eye_[arrivals_[k].path]);
   shader.values(directions_, scratch_, values_);
   const std::size_t n = arrivals_.size();
   work_.evaluations += n;

@@ -66,7 +66,7 @@ class TileRenderer {
 
   void start_paths(const Tile& tile, std::size_t first_sample, std::size_t samples);
   void trace();
-  void collect_emission(int bounce);
+  void collect_emission();
   void add_emission(std::size_t path, const LightSampler::Emission& emission, double weight);
   void find_surfaces();
   void light_directly(std::size_t material, int bounce);

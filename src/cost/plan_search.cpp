@@ -171,4 +171,45 @@ bool no_dearer(const PlanChoice& a, const PlanChoice& b) noexcept {
   return !a.effects.has(Effect::rough) || a.rough >= b.rough;
 }
 
+namespace {
+
+/// Of double precision and AVX-512 on a server processor of 2020; their order matters more than the numbers.
+constexpr double usual(FresnelTier t) { return t == FresnelTier::exact ? 3.0 : t == FresnelTier::schlick ? 0.4 : 0.0; }
+constexpr double usual(ShadowingTier t) {
+  return t == ShadowingTier::smith         ? 3.5
+         : t == ShadowingTier::li_torrance ? 2.5
+         : t == ShadowingTier::schlick     ? 0.5
+                                           : 0.0;
+}
+constexpr double usual(EffectiveRoughnessTier t) {
+  return t == EffectiveRoughnessTier::he ? 6.0 : t == EffectiveRoughnessTier::li_torrance ? 3.0 : 0.0;
+}
+constexpr double usual(DistributionTier t) {
+  return t == DistributionTier::he_torrance_series ? 400.0
+         : t == DistributionTier::he_torrance      ? 7.0
+         : t == DistributionTier::student_t        ? 2.0
+                                                   : 0.0;
+}
+constexpr double usual(RoughForm f) {
+  return f == RoughForm::integral ? 3000.0 : f == RoughForm::functional ? 20.0 : 15.0;
+}
+
+}  // namespace
+
+double usual_ns(const PlanChoice& choice) noexcept {
+  const EffectSet e = choice.effects;
+  constexpr double directions_to_cosines = 1.5;
+  double ns = directions_to_cosines;
+  if (e.has(Effect::dd)) ns += 1.0;
+  if (e.has(Effect::uds)) ns += 0.1;
+  if (e.has(Effect::fs)) ns += 1.2;
+  if (e.has(Effect::coh)) ns += 0.5;
+  if (e.has(Effect::rough)) ns += usual(choice.rough);
+  if (reads_fresnel(e)) ns += usual(choice.terms.fresnel);
+  if (reads_shadowing(e)) ns += usual(choice.terms.shadowing);
+  if (reads_effective_roughness(e)) ns += usual(choice.terms.effective_roughness);
+  if (reads_distribution(e)) ns += usual(choice.terms.distribution);
+  return ns;
+}
+
 }  // namespace goniofit

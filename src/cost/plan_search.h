@@ -76,6 +76,9 @@ class PlanSearch {
 /// All but the empty one.
 [[nodiscard]] std::vector<EffectSet> subsets_of(EffectSet effects);
 
+/// What a choice usually costs, in ns a channel: a sum over its effects and the terms that they read.
+[[nodiscard]] double usual_ns(const PlanChoice& choice) noexcept;
+
 /// Whether `a` should be no dearer than `b`: no more effects, and each term that it reads the same, left out,
 /// or plainly a part of the other's work.
 [[nodiscard]] bool no_dearer(const PlanChoice& a, const PlanChoice& b) noexcept;

@@ -61,6 +61,9 @@ struct PlanSettings {
   std::uint64_t seed = 1;
   /// Bound the RMS relative error as well: dark directions then count as bright ones do.
   bool bound_rms = false;
+  /// Which plan is the fastest is measured; else it is told by a table of what effects and terms usually cost, so that
+  /// the same input has the same plan on every run (its times are measured all the same).
+  bool by_the_clock = true;
   /// Few repetitions and directions: for trying out.
   [[nodiscard]] static PlanSettings quick();
 };

@@ -157,6 +157,7 @@ class Planner {
     PlanSettings plan_settings = settings_.plan;
     plan_settings.compile = compile_settings();
     plan_settings.arithmetic = Arithmetic::batch_float;
+    plan_settings.by_the_clock = false;
     plan_settings.seed = plan_settings.timing.seed = settings_.seed;
     Plan p = plan_on(samples, given, aim, plan_settings);
     p.domain = s.domain;

@@ -209,7 +209,7 @@ SceneSurvey survey(const Scene& scene, std::span<const RenderMaterial> materials
   Recorder recorder(scene.materials.size(), channels);
   const Rendering rendering = render(small, materials, {.threads = 1, .observer = &recorder});
   recorder.finish();
-  SceneSurvey result{small.image.width, small.image.height, rendering.picture.radiance, {}};
+  SceneSurvey result{small.image.width, small.image.height, small.image.seed, rendering.picture.radiance, {}};
   for (std::size_t m = 0; m < scene.materials.size(); ++m) {
     const Recorder::Vertices& lobes = recorder.lobes(m);
     const Recorder::Vertices& mirrors = recorder.mirrors(m);

@@ -47,6 +47,7 @@ struct MaterialSurvey {
 
 struct SceneSurvey {
   std::size_t width = 0, height = 0;
+  std::uint64_t seed = 0;        ///< of the small picture
   std::vector<double> radiance;  ///< [pixel * channels + channel]
   std::vector<MaterialSurvey> materials;
 };

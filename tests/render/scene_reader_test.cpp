@@ -47,6 +47,7 @@ height = 200
 samples = 4
 max_bounces = 7
 indirect = 0.5
+path_limit = 3
 seed = 11
 exposure = -1.5
 [plan]
@@ -126,6 +127,7 @@ rotation_deg = 90
   EXPECT_EQ(s.image.samples, 4U);
   EXPECT_EQ(s.image.max_bounces, 7);
   EXPECT_EQ(s.image.indirect, 0.5);
+  EXPECT_EQ(s.image.path_limit, 3.0);
   EXPECT_EQ(s.image.seed, 11U);
   EXPECT_EQ(s.image.exposure_stops, -1.5);
   EXPECT_EQ(s.plan_tolerance, 0.01);
@@ -189,6 +191,7 @@ TEST(SceneReader, SaysWhatIsWrongAndWhere) {
       {"[image]\nsamples = 1.5\n" + camera + rest, "/image/samples: is a floating-point"},
       {"[image]\nmax_bounces = 1000\n" + camera + rest, "/image/max_bounces: is 1000"},
       {"[image]\nindirect = 0\n" + camera + rest, "/image/indirect: is 0, expected a number above 0"},
+      {"[image]\npath_limit = 0\n" + camera + rest, "/image/path_limit: is 0, expected a number above 0"},
       {"[image]\nexposure = \"bright\"\n" + camera + rest, "/image/exposure: is a string, expected \"auto\""},
       {"[plan]\ntolerance = 1\n" + camera + rest, "/plan/tolerance: is 1, expected a number between 0 and 1"},
       {camera + sphere + lamp, "/materials: is missing"},

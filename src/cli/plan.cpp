@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cli/commands.h"
@@ -15,6 +16,8 @@
 #include "cost/planner.h"
 #include "io/material_io.h"
 #include "io/scan_reader.h"
+#include "render/scene_plan_report.h"
+#include "render/scene_reader.h"
 #include "report/plan_report.h"
 #include "scan/scan_domain.h"
 #include "support/error.h"
@@ -54,7 +57,39 @@ Domain domain_of(const Options& options) {
   return d;
 }
 
+void expect_no_flags_of_materials(const Options& o) {
+  const std::pair<bool, const char*> flags[] = {{o.scan.has_value(), "--scan"},
+                                                {o.theta_i.has_value(), "--theta-i"},
+                                                {o.max_theta.has_value(), "--max-theta"},
+                                                {o.wavelengths.has_value(), "--wavelengths"},
+                                                {o.solid_angle.has_value(), "--solid-angle"},
+                                                {o.terms_to != 0.0, "--terms-to"},
+                                                {o.rms, "--rms"},
+                                                {o.quick, "--quick"}};
+  for (const auto& [given, name] : flags) {
+    if (given) throw usage_error(std::string(name) + ": a scene says itself what matters, expected a material");
+  }
+}
+
+int plan_of_scene(const Options& options) {
+  expect_no_flags_of_materials(options);
+  if (options.output) check_outputs({*options.output}, {options.material});
+  const Scene scene = read_scene(options.material);
+  const ScenePlan planned = [&] {
+    ProgressLine line("plan", options.quiet);
+    ScenePlanSettings settings;
+    settings.seed = options.seed;
+    return plan_scene(scene, options.tolerance, settings, [&line](const std::string& what) { line.show(what, 0, 0); });
+  }();
+  const std::string json = scene_plan_json(planned);
+  if (options.output) write_result(*options.output, json);
+  if (options.output && is_stdout(*options.output)) return 0;
+  to_stdout(options.json ? json : scene_plan_text(planned, stdout_style()));
+  return 0;
+}
+
 int run(const Options& options) {
+  if (lower_case(options.material.extension().string()) == ".toml") return plan_of_scene(options);
   if (!(options.tolerance > 0.0 && options.tolerance < 1.0)) {
     throw usage_error("--tolerance: " + shortest(options.tolerance) + ", expected a number between 0 and 1");
   }
@@ -87,10 +122,14 @@ void add_plan(CLI::App& program, int& status) {
   const auto options = std::make_shared<Options>();
   CLI::App* command =
       program.add_subcommand("plan", "Find the cheapest effects and tiers that stay within a tolerance");
-  command->add_option("MATERIAL", options->material, "material JSON")->type_name("")->required();
+  command->add_option("INPUT", options->material, "material JSON, or a scene (.toml): all of its materials")
+      ->type_name("")
+      ->required();
   command
-      ->add_option("--tolerance", options->tolerance,
-                   "largest L1 error at any incidence angle and in any channel, such as 0.01")
+      ->add_option(
+          "--tolerance", options->tolerance,
+          "largest L1 error at any incidence angle and in any channel, such as 0.01; of a scene the relative RMS "
+          "error of its picture over lit pixels")
       ->type_name("PART")
       ->required();
   command->add_option("--scan", options->scan, "take angles, wavelengths and solid angle from this scan")
@@ -100,7 +139,10 @@ void add_plan(CLI::App& program, int& status) {
       ->type_name("DEG");
   command->add_option("--wavelengths", options->wavelengths, "channels that matter, in um (all)")->type_name("LIST");
   command->add_option("--solid-angle", options->solid_angle, "of the source, in sr (the material's)")->type_name("SR");
-  command->add_option("-o,--output", options->output, "write the planned material here")->type_name("FILE");
+  command
+      ->add_option("-o,--output", options->output,
+                   "write the planned material here; of a scene the plan as JSON, with its materials")
+      ->type_name("FILE");
   command
       ->add_option("--terms-to", options->terms_to,
                    "relative error that terms are compiled to where the plan will be used (0, or 1e-9 and more)")
@@ -112,7 +154,8 @@ void add_plan(CLI::App& program, int& status) {
   command->add_flag("-q,--quiet", options->quiet, "no progress on standard error");
   command->footer(
       "The error is against the most exact terms that the material has the parameters for, with its own coefficients.\n"
-      "Example:\n  goniofit plan fits/laser_paper_73.json --tolerance 0.01 --max-theta 75 -o planned.json");
+      "Example:\n  goniofit plan fits/laser_paper_73.json --tolerance 0.01 --max-theta 75 -o planned.json\n"
+      "  goniofit plan data/scenes/five_materials.toml --tolerance 0.01");
   command->callback([options, &status] { status = run(*options); });
 }
 

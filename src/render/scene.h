@@ -33,9 +33,12 @@ struct ImageSettings {
   std::size_t width = 512, height = 512;
   std::size_t samples = 16;  ///< a pixel; 1 is the pixel's centre, more are stratified over it
   int max_bounces = 3;       ///< reflections of one light path; 1 is direct light alone
-  /// Part of the camera's hits from which a path goes on, weighted for the others: what comes by way of other surfaces
-  /// needs fewer samples than what comes straight from lights. Mirrors' rays always go on.
+  /// Part of the camera's hits from which a path goes on by a wide effect (all but dd and fs), weighted for the others:
+  /// what comes by way of other surfaces needs fewer samples than what comes straight from lights.
   double indirect = 1.0;
+  /// Largest radiance that a single path may bring by way of another surface; null: any, which is right in the mean. A
+  /// limit loses part of what narrow lobes focus on other surfaces, whose rare bright paths are seen as sparks.
+  std::optional<double> path_limit{};
   std::uint64_t seed = 1;
   std::optional<double> exposure_stops{};  ///< of the PNG; null: by the image itself
 };

@@ -89,6 +89,7 @@ class Check {
             "is " + std::to_string(image.samples) + ", expected 1 to " + std::to_string(most_samples));
     require(image.max_bounces > 0 && image.max_bounces <= most_bounces, "/image/max_bounces",
             "is " + std::to_string(image.max_bounces) + ", expected 1 to " + std::to_string(most_bounces));
+    require(!image.path_limit || *image.path_limit > 0.0, "/image/path_limit", "expected a number above 0");
     require(image.indirect > 0.0 && image.indirect <= 1.0, "/image/indirect",
             "is " + shortest(image.indirect) + ", expected a number above 0 and up to 1");
   }

@@ -92,7 +92,7 @@ void read_count(const TomlValue& table, std::string_view key, std::int64_t least
 }
 
 void read_image(const TomlValue& table, ImageSettings& image) {
-  table.expect_keys({"width", "height", "samples", "max_bounces", "indirect", "seed", "exposure"});
+  table.expect_keys({"width", "height", "samples", "max_bounces", "indirect", "path_limit", "seed", "exposure"});
   constexpr std::int64_t largest_side = 65536;
   read_count(table, "width", 1, largest_side, image.width);
   read_count(table, "height", 1, largest_side, image.height);
@@ -100,6 +100,9 @@ void read_image(const TomlValue& table, ImageSettings& image) {
   read_count(table, "max_bounces", 1, most_bounces, image.max_bounces);
   read_count(table, "seed", 0, std::numeric_limits<std::int64_t>::max(), image.seed);
   scene_parts::read_number(table, "indirect", {0.0, 1.0, false, true, "a number above 0 and up to 1"}, image.indirect);
+  if (const auto limit = table.find("path_limit")) {
+    image.path_limit = goniofit::read_number(*limit, Range::above(0.0));
+  }
   const auto exposure = table.find("exposure");
   if (!exposure || (exposure->is_string() && exposure->text() == "auto")) return;
   if (!exposure->is_number()) exposure->fail_type("\"auto\" or a number of stops");

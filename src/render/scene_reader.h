@@ -12,7 +12,9 @@
 //   height = 512
 //   samples = 16                      # a pixel
 //   max_bounces = 3                   # 1: direct light alone
-//   indirect = 1                      # part of the samples that follow light beyond the first surface, above 0 to 1
+//   indirect = 1                      # part of the samples that follow diffuse light to other surfaces, above 0 to 1
+//   path_limit = 10                   # largest radiance that one path brings from another surface (none): no sparks,
+//                                     #   at the price of caustics
 //   seed = 1
 //   exposure = "auto"                 # or stops: the PNG shows 2^stops times the radiance
 //

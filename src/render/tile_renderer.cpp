@@ -49,7 +49,8 @@ TileRenderer::TileRenderer(const RenderContext& context)
     : context_(context),
       channels_(context.channels()),
       of_material_(context.materials.size()),
-      of_light_(context.lights.size()) {
+      of_light_(context.lights.size()),
+      sums_(channels_) {
   for (const LightSampler& light : context_.lights) sized_lights_ = sized_lights_ || !light.is_delta();
   for (const Light& light : context_.scene.lights) mirrored_lights_ = mirrored_lights_ || mirror_shows(light);
 }
@@ -124,15 +125,25 @@ void TileRenderer::add_emission(std::size_t path, const LightSampler::Emission& 
   const double* const throughput = &now_.throughput[path * channels_];
   const double scale = emission.scale * weight;
   if (scale == 0.0) return;
-  for (std::size_t c = 0; c < channels_; ++c) pixel[c] += throughput[c] * scale * emission.spectrum[c];
-  if (context_.observer == nullptr) return;
-  weights_.clear();
-  for (std::size_t c = 0; c < channels_; ++c) weights_.push_back(throughput[c] * scale * emission.spectrum[c]);
-  context_.observer->met_light(now_.paths[path].observed, weights_);
+  for (std::size_t c = 0; c < channels_; ++c) sums_[c] = throughput[c] * scale * emission.spectrum[c];
+  add(now_.paths[path], pixel);
+  if (context_.observer != nullptr) context_.observer->met_light(now_.paths[path].observed, sums_);
 }
 
 PathVertex TileRenderer::vertex(std::uint32_t path, std::size_t material, const Direction& l) const {
   return {now_.paths[path].observed, material, l, to_eye_[path]};
+}
+
+double TileRenderer::add(const Path& path, double* pixel) {
+  double scale = 1.0;
+  if (path.drawn && context_.scene.image.path_limit) {
+    const double brightest = *std::max_element(sums_.begin(), sums_.end());
+    const double most = *context_.scene.image.path_limit / static_cast<double>(context_.scene.image.samples);
+    if (brightest > most) scale = most / brightest;
+  }
+  for (double& sum : sums_) sum *= scale;
+  for (std::size_t c = 0; c < channels_; ++c) pixel[c] += sums_[c];
+  return scale;
 }
 
 // What the rays themselves run into. A ray that the model drew shares a light that has a size with the drawing of
@@ -245,12 +256,13 @@ void TileRenderer::add_arrivals(std::size_t material, std::size_t light, bool co
   work_.evaluations += kept;
   lap(&RenderWork::evaluate_s);
   for (std::size_t i = 0; i < kept; ++i) {
-    const Arrival& a = arrivals_[i];
+    Arrival& a = arrivals_[i];
     double* const pixel = &radiance_[now_.paths[a.path].pixel * channels_];
     const double* const throughput = &now_.throughput[a.path * channels_];
     for (std::size_t c = 0; c < channels_; ++c) {
-      pixel[c] += throughput[c] * a.weight * a.spectrum[c] * values_[c * kept + i];
+      sums_[c] = throughput[c] * a.weight * a.spectrum[c] * values_[c * kept + i];
     }
+    a.weight *= add(now_.paths[a.path], pixel);
   }
   if (context_.observer != nullptr) tell_of_arrivals(material, light, kept);
 }
@@ -317,7 +329,8 @@ void TileRenderer::reflect_in_mirror(std::size_t material, std::uint32_t i, doub
   next_.paths.push_back({.pixel = path.pixel,
                          .key = pixel_samples::combined(path.key, ~std::uint64_t{0}),
                          .sample = path.sample,
-                         .normal = s.shading.z});
+                         .normal = s.shading.z,
+                         .drawn = path.drawn});
   ++work_.mirror_rays;
   if (context_.observer == nullptr) return;
   factors_.clear();
@@ -329,14 +342,19 @@ void TileRenderer::reflect_in_mirror(std::size_t material, std::uint32_t i, doub
 void TileRenderer::reflect_by_model(const MaterialShader& shader, std::uint32_t i, int bounce, double chance) {
   const Path& path = now_.paths[i];
   const auto which = random_pair(path.key, for_lobe, path.sample);
-  const double goes_on = bounce == 0                ? context_.scene.image.indirect
-                         : bounce >= first_roulette ? shader.survival()
-                                                    : 1.0;
-  if (!(which[1] < goes_on)) return;
-  chance *= goes_on;
+  if (bounce >= first_roulette) {
+    if (!(which[1] < shader.survival())) return;
+    chance *= shader.survival();
+  }
   const auto u = random_pair(path.key, for_direction, path.sample);
   const auto drawn = shader.draw(to_eye_[i], {which[0], u[0], u[1]});
   if (!drawn) return;
+  // Each effect may go on with a chance of its own: what is left has the mean of all.
+  const bool wide = drawn->chosen != Effect::dd && drawn->chosen != Effect::fs;
+  if (bounce == 0 && wide) {
+    if (!(which[1] < context_.scene.image.indirect)) return;
+    chance *= context_.scene.image.indirect;
+  }
   const Direction& l = drawn->direction;
   const Vec3 direction = surfaces_[i].shading.to_world(l.x, l.y, l.z);
   if (!(dot(direction, surfaces_[i].normal) > 0.0)) return;
@@ -349,7 +367,8 @@ void TileRenderer::reflect_by_model(const MaterialShader& shader, std::uint32_t 
                          .sample = path.sample,
                          .normal = surfaces_[i].shading.z,
                          .pdf = drawn->pdf,
-                         .light_chance = light_chance});
+                         .light_chance = light_chance,
+                         .drawn = true});
   next_.throughput.insert(next_.throughput.end(), channels_, 0.0);
 }
 

@@ -44,6 +44,7 @@ class TileRenderer {
     Vec3 normal;                 // of the surface that it left
     double pdf = 0.0;            // of its direction by the model's sampling; 0 for the camera's and mirrors' rays
     double light_chance = 1.0;   // with which that surface drew each light
+    bool drawn = false;          // whether any of its directions was drawn, not the camera's or a mirror's
     std::uint32_t observed = 0;  // the observer's name of it
   };
   struct Paths {
@@ -68,6 +69,7 @@ class TileRenderer {
   void trace();
   void collect_emission();
   void add_emission(std::size_t path, const LightSampler::Emission& emission, double weight);
+  double add(const Path& path, double* pixel);  // sums_; what of them the limit of a path leaves
   void find_surfaces();
   void light_directly(std::size_t material, int bounce);
   void draw_light(std::size_t material, std::size_t light, double chance, const std::vector<std::uint32_t>& hits);
@@ -96,6 +98,7 @@ class TileRenderer {
   DirectionBatch directions_;
   std::vector<double> values_;
   MaterialShader::Scratch scratch_;
+  std::vector<double> sums_;               // of one path, by channel
   std::vector<double> weights_, factors_;  // of one vertex, for the observer
   std::span<double> radiance_;
   RenderWork work_;

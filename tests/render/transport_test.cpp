@@ -193,6 +193,14 @@ TEST(Transport, AWallLightsTheFloor) {
     }
   }
   expect_near(estimate(rendered(scene).picture), 0.6 / pi * irradiance, 1e-4, "wall");
+  scene.image.indirect = 0.25;
+  const Estimate thinned = estimate(rendered(scene).picture);
+  expect_near(thinned, 0.6 / pi * irradiance, 1e-4, "wall, a quarter of the paths");
+  const std::uint64_t quarter = rendered(scene).work.path_rays;
+  EXPECT_NEAR(static_cast<double>(quarter), 0.25 * 64 * 1024, 0.01 * 64 * 1024);
+  scene.image.path_limit = 1e-3 * thinned.mean;
+  EXPECT_LT(estimate(rendered(scene).picture).mean, 1e-3 * thinned.mean) << "each path is cut";
+  EXPECT_GT(estimate(rendered(scene).picture).mean, 0.0);
   scene.image.max_bounces = 1;
   EXPECT_EQ(estimate(rendered(scene).picture).mean, 0.0) << "direct light alone";
 }

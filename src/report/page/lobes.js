@@ -43,12 +43,12 @@ function azimuths(stored) {
 function surfaceOf(lobe, values, radius, top) {
   const theta = floats(lobe.theta);
   const stored = floats(lobe.phi);
-  const around = azimuths(stored);
+  const around = azimuths(stored).reverse(); // so that the outside is the lit one
   const grid = (component) =>
     Array.from(theta, (t, row) =>
       around.map(({ phi, i }) => radius(values[row * stored.length + i], top) * direction(t, phi)[component]));
   return {
-    type: "surface", x: grid(0), y: grid(1), z: grid(2), showscale: false, hoverinfo: "skip", opacity: 0.96,
+    type: "surface", x: grid(0), y: grid(1), z: grid(2), showscale: false, hoverinfo: "skip", opacity: 1,
     surfacecolor: grid(2).map((row) => row.map(() => 0)),
     colorscale: [[0, "#7fa9c4"], [1, "#7fa9c4"]],
     lighting: { ambient: 0.5, diffuse: 0.75, specular: 0.12, roughness: 0.7, fresnel: 0.05 },
@@ -83,7 +83,7 @@ function frame(thetaI) {
   const ray = (theta, phi) => [[0, 0, 0], direction(theta, phi).map((c) => 1.12 * c)];
   return [
     line(horizon, ink.faint, "solid"),
-    line([[-1, 0, 0], [1, 0, 0]], ink.line, "solid"),
+    line([[-1, 0, 0], [1, 0, 0]], ink.line, "solid", "forward"),
     line([[0, -1, 0], [0, 1, 0]], ink.line, "solid"),
     line(ray(thetaI, 0), "#000", "solid", "light"),
     line(ray(thetaI, 180), "#000", "dash", "mirror"),
@@ -109,7 +109,7 @@ function camera(turn, height, distance = 1.75) {
       y: distance * Math.cos(height * rad) * Math.sin(turn * rad),
       z: distance * Math.sin(height * rad),
     },
-    center: { x: 0, y: 0, z: -0.12 },
+    center: { x: 0, y: 0, z: -0.16 },
     up: { x: 0, y: 0, z: 1 },
   };
 }

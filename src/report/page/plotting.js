@@ -34,7 +34,8 @@ export const diverging = [
 
 const font = { family: 'system-ui, -apple-system, "Segoe UI", Roboto, "Noto Sans", sans-serif', size: 13, color: ink.text };
 
-export const axis = (more = {}) => ({
+export const axis = ({ title, ...more } = {}) => ({
+  title: title && { text: title, font: { size: 13 }, standoff: 8 },
   zeroline: false,
   showline: true,
   linecolor: ink.line,

@@ -10,7 +10,8 @@ function telling() {
 }
 
 export const state = {
-  channel: 0,
+  // Of a spectrum the middle.
+  channel: report.plots.channels.length > 4 ? Math.floor(report.plots.channels.length / 2) : 0,
   panel: telling(), // incidence angle of maps and lobes
   scale: report.plots.curves.log ? "log" : "linear",
 };

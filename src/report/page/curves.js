@@ -139,10 +139,8 @@ export function curvesSection() {
       redraw();
     }),
   );
-  whenSeen(plot, () => {
-    redraw();
-    onChoice((change) => "channel" in change && redraw());
-  });
+  const refresh = whenSeen(plot, redraw);
+  onChoice((change) => "channel" in change && refresh());
   return section(
     "curves",
     "In the plane of incidence",

@@ -63,19 +63,24 @@ export function section(id, title, ...children) {
   return el("section", { id, "aria-labelledby": `${id}-title` }, el("h2", { id: `${id}-title` }, title), ...children);
 }
 
-/// Calls `draw` when the element comes near the window, or before the page is printed: plots below cost nothing at
-/// first.
+/// Calls `draw` when the element comes near the window, or before the page is printed: plots out of sight cost nothing.
+/// Returns what to call where it is to be drawn again.
 export function whenSeen(element, draw) {
-  let waiting = true;
-  const once = () => {
-    if (!waiting) return;
-    waiting = false;
-    observer.disconnect();
+  let near = false;
+  let stale = true;
+  const update = () => {
+    if (!near || !stale) return;
+    stale = false;
     draw();
   };
-  const observer = new IntersectionObserver((entries) => entries.some((e) => e.isIntersecting) && once(), {
-    rootMargin: "300px",
-  });
-  observer.observe(element);
-  window.addEventListener("beforeprint", once);
+  const see = (isNear) => {
+    near = isNear;
+    update();
+  };
+  new IntersectionObserver((entries) => see(entries.at(-1).isIntersecting), { rootMargin: "250px" }).observe(element);
+  window.addEventListener("beforeprint", () => see(true));
+  return () => {
+    stale = true;
+    update();
+  };
 }

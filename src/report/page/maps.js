@@ -203,11 +203,12 @@ export function mapsSection() {
         redraw();
       }));
   const grid = el("div", { class: "maps" }, nodes[0], nodes[1], commonBar, nodes[2], differenceBar);
-  whenSeen(grid, () => {
+  const refresh = whenSeen(grid, () => {
+    const first = current === null;
     redraw();
-    for (const node of [measuredNode, fittedNode, differenceNode]) node.on("plotly_hover", read);
-    onChoice(redraw);
+    if (first) for (const node of [measuredNode, fittedNode, differenceNode]) node.on("plotly_hover", read);
   });
+  onChoice(refresh);
   return section("maps", title, controls, grid, readout,
     el("p", { class: "caption" },
       "Seen from above, forward to the right, in Lambert’s equal-area projection; rings at θᵣ = 30° and 60°. ",

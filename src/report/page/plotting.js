@@ -88,4 +88,5 @@ window.addEventListener("afterprint", () => {
 });
 
 export const relayout = (node, update) => Plotly.relayout(node, update);
-export const snapshot = (node, size) => Plotly.toImage(node, { format: "png", ...size });
+/// A picture of a plot in space, as it stands, at once: Plotly.toImage comes too late for a printer.
+export const snapshot = (node) => node._fullLayout.scene._scene.toImage("png");

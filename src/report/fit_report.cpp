@@ -9,6 +9,7 @@
 #include "report/comparison_criteria_report.h"
 #include "report/fit_rows.h"
 #include "report/identifiability_report.h"
+#include "report/material_text.h"
 #include "report/misfit_report.h"
 #include "report/number_text.h"
 #include "report/objective_text.h"
@@ -57,23 +58,6 @@ std::string optics_text(const Material& material) {
 }
 
 bool is_peer(const Material& material) { return material.model != surface_model; }
-
-std::string terms_text(const Material& material) {
-  const Terms& terms = material.terms;
-  if (is_peer(material)) return fmt::format("Fresnel {}", name_of(terms.fresnel));
-  return fmt::format("Fresnel {}, shadowing {}, effective roughness {}, distribution {}", name_of(terms.fresnel),
-                     name_of(terms.shadowing), name_of(terms.effective_roughness), name_of(terms.distribution));
-}
-
-// Those that something reads; empty for none.
-std::string forms_text(const Material& material) {
-  std::vector<std::string> parts;
-  const auto add = [&](const char* of, std::string_view form) { parts.push_back(fmt::format("{} {}", of, form)); };
-  if (material.components.has(Effect::fs)) add("fs", name_of(material.forms.fs));
-  if (material.components.has(Effect::rough)) add("rough", name_of(material.forms.rough));
-  if (material.surface.anisotropic()) add("anisotropy", name_of(material.forms.anisotropy));
-  return fmt::format("{}", fmt::join(parts, ", "));
-}
 
 std::string title_block(const FitResult& result, const Scan& scan, bool color) {
   const Material& material = result.material;

@@ -19,7 +19,6 @@ struct PageSource {
   std::vector<Input> inputs{};
   std::string command{};                                        ///< as it was typed
   std::vector<std::pair<std::string, std::string>> versions{};  ///< of the program and the libraries, by name
-  std::string seed{};                                           ///< in words
   /// Whether `result` is that of the fit itself, with all that it knows; else made of a material and a scan.
   bool fitted = true;
 };

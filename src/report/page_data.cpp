@@ -12,6 +12,7 @@
 #include "report/digest.h"
 #include "report/fit_report.h"
 #include "report/fit_rows.h"
+#include "report/material_text.h"
 #include "report/number_text.h"
 #include "report/objective_text.h"
 #include "report/page.h"
@@ -35,22 +36,6 @@ std::string terms_name(const Terms& terms) {
       return "He–Torrance";
   }
   return {};
-}
-
-std::string terms_text(const Material& m) {
-  if (m.model != surface_model) return fmt::format("Fresnel {}", name_of(m.terms.fresnel));
-  const std::string named = terms_name(m.terms);
-  return (named.empty() ? "" : named + ": ") +
-         fmt::format("Fresnel {}, shadowing {}, effective roughness {}, distribution {}", name_of(m.terms.fresnel),
-                     name_of(m.terms.shadowing), name_of(m.terms.effective_roughness), name_of(m.terms.distribution));
-}
-
-std::string forms_text(const Material& m) {
-  std::vector<std::string> parts;
-  if (m.components.has(Effect::fs)) parts.push_back(fmt::format("fs {}", name_of(m.forms.fs)));
-  if (m.components.has(Effect::rough)) parts.push_back(fmt::format("rough {}", name_of(m.forms.rough)));
-  if (m.surface.anisotropic()) parts.push_back(fmt::format("anisotropy {}", name_of(m.forms.anisotropy)));
-  return fmt::format("{}", fmt::join(parts, ", "));
 }
 
 std::string optics_text(const MaterialChannel& c) {
@@ -84,10 +69,11 @@ Json subject(const FitResult& result, const Scan& scan, const PageSource& source
   say("Model", peer ? m.model
                     : effects_text(m.components, " + ") + (m.surface.anisotropic() ? ", anisotropic" : "") +
                           (result.components_were_auto ? " (chosen automatically)" : ""));
-  say("Terms", terms_text(m));
+  const std::string named = peer ? std::string() : terms_name(m.terms);
+  say("Terms", (named.empty() ? "" : named + ": ") + terms_text(m));
   say("Forms", forms_text(m));
   say("Optics", optics_text(m));
-  if (m.components.has(Effect::coh)) say("Source", number_text(m.solid_angle_sr) + " sr");
+  if (m.components.has(Effect::coh)) say("Solid angle", number_text(m.solid_angle_sr) + " sr (source)");
   if (source.fitted) say("Made least", objective_text(result));
   say("RMS", fmt::format("{:.4g} sr⁻¹", result.rms));
   return out;
@@ -130,13 +116,11 @@ Json parameter_text(const FittedParameter& p) {
 
 Json sphere(const Material& material) {
   const SpherePicture picture = sphere_picture(material);
-  const std::string white = picture.white < 1.0 ? fmt::format("{:.2g} times darker", 1.0 / picture.white)
-                                                : fmt::format("{:.2g} times as bright", picture.white);
   return {{"png", "data:image/png;base64," + base64(png_of_rgb(picture.size, picture.size, picture.rgb))},
           {"size", picture.size},
           {"alt", "A sphere of the material under one light from the upper left"},
-          {"caption", fmt::format("One light from the upper left; {}. A white diffuser would be {} on this exposure.",
-                                  picture.bands.text, white)}};
+          {"caption", fmt::format("Under one light from the upper left; {}. Exposed {:.2g} times as long as for white.",
+                                  picture.bands.text, picture.exposure)}};
 }
 
 // The terminal's sentence of the source of uncertainties holds for a fit; a material may state none.
@@ -145,7 +129,7 @@ Json sentences(const FitResult& result, const PageSource& source) {
   return stated ? Json(uncertainty_sentences(result)) : Json::array();
 }
 
-Json source_json(const PageSource& source, const Scan& scan) {
+Json source_json(const PageSource& source, const FitResult& result, const Scan& scan) {
   Json out;
   out["scan"] = scan.source;
   out["inputs"] = Json::array();
@@ -155,7 +139,9 @@ Json source_json(const PageSource& source, const Scan& scan) {
   out["command"] = source.command;
   out["versions"] = Json::array();
   for (const auto& [name, version] : source.versions) out["versions"].push_back({name, version});
-  out["seed"] = source.seed;
+  out["random"] = result.uncertainty_from == UncertaintySource::angles && source.fitted
+                      ? "the bootstrap over incidence angles, by a fixed seed"
+                      : "none";
   out["metadata"] = Json::array();
   for (const auto& [key, value] : scan.metadata) out["metadata"].push_back({key, value});
   return out;
@@ -183,7 +169,7 @@ std::string page_data(const FitResult& result, const Scan& scan, const PageSourc
   out["sphere"] = sphere(result.material);
   out["plots"] = page_plots(result, scan);
   out["material"] = Json::parse(to_json(result.material));
-  out["source"] = source_json(source, scan);
+  out["source"] = source_json(source, result, scan);
   return out.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

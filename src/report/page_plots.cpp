@@ -28,9 +28,10 @@ using Json = nlohmann::ordered_json;
 using Rows = std::vector<std::size_t>;
 
 // What keeps a page below four megabytes.
-constexpr std::size_t most_values = 110'000;  // readings times channels, in maps and lobes
+constexpr std::size_t most_map_values = 60'000, most_curve_values = 40'000;  // readings times channels
 constexpr std::size_t most_channels = 32, most_lobe_channels = 6;
 constexpr std::size_t most_incidences = 12, most_lobes = 8;
+constexpr std::size_t many_channels = 8;  // with more, eight incidence angles of curves
 // A mirror's spike on a plot ends here, in units of the largest reading.
 constexpr double spike = 1e3;
 
@@ -65,10 +66,18 @@ class Plots {
   [[nodiscard]] double fitted(std::size_t channel, std::size_t row) const {
     return std::min(fitted_[channel * scan_.size() + row], spike * highest_);
   }
+  /// What of `readings` can be kept in a part of the page; values with uncertainties take half as much again.
+  [[nodiscard]] double kept_part(std::size_t readings, std::size_t most) const {
+    const bool with_u =
+        std::any_of(scan_.channels.begin(), scan_.channels.end(), [](const ScanChannel& c) { return !c.u.empty(); });
+    const auto values =
+        static_cast<double>(std::max<std::size_t>(1, readings * channels_.size())) * (with_u ? 1.5 : 1.0);
+    return std::min(1.0, static_cast<double>(most) / values);
+  }
   [[nodiscard]] Json series(const Rows& rows) const;
   [[nodiscard]] Json channels() const;
   [[nodiscard]] Json curves() const;
-  [[nodiscard]] Json curve(const PlotPlan& plan, const PlottedIncidence& incidence, const Rows& rows) const;
+  [[nodiscard]] Json curve(const PlotPlan& plan, const PlottedIncidence& incidence) const;
   [[nodiscard]] Json maps() const;
   [[nodiscard]] Json lobes(const std::vector<ResidualPanel>& panels) const;
   [[nodiscard]] Json lobe(const BatchEvaluator<double>& evaluator, double theta_i_deg, const Rows& channels) const;
@@ -94,6 +103,10 @@ Json column(const Rows& rows, Value&& value) {
   return array_of(out);
 }
 
+std::size_t part_of(std::size_t count, double part) {
+  return static_cast<std::size_t>(std::ceil(part * static_cast<double>(count)));
+}
+
 // Measured, fitted and u of some readings, channel by channel.
 Json Plots::series(const Rows& rows) const {
   Json out = Json::array();
@@ -114,7 +127,7 @@ Json Plots::channels() const {
   return out;
 }
 
-Json Plots::curve(const PlotPlan& plan, const PlottedIncidence& incidence, const Rows& rows) const {
+Json Plots::curve(const PlotPlan& plan, const PlottedIncidence& incidence) const {
   std::vector<double> angles = curve_angles(plan, incidence.theta_i_deg, lobe_width_deg(result_.material));
   std::vector<AnglePair> pairs;
   for (const double angle : angles) {
@@ -127,7 +140,7 @@ Json Plots::curve(const PlotPlan& plan, const PlottedIncidence& incidence, const
   Json out;
   out["theta_i"] = incidence.theta_i_deg;
   out["theta_r"] = array_of(incidence.signed_theta_r_deg);
-  out["channels"] = series(rows);
+  out["channels"] = series(incidence.rows);
   out["curve_theta_r"] = array_of(angles);
   out["curve"] = Json::array();
   for (const std::size_t c : channels_) {
@@ -154,8 +167,9 @@ Json Plots::curves() const {
   const Scan shown = anisotropic_ ? at_azimuth(scan_, first_azimuth()) : scan_;
   PlotPlan plan;
   try {
-    plan =
-        plan_plot(shown, {.axis = PlotAxis::automatic, .max_panels = most_channels, .max_incidences = most_incidences});
+    plan = plan_plot(shown, {.axis = PlotAxis::automatic,
+                             .max_panels = most_channels,
+                             .max_incidences = channels_.size() > many_channels ? most_lobes : most_incidences});
   } catch (const Error&) {
     out["note"] = "The scan has no readings within 10° of the plane of incidence.";
     return out;
@@ -169,10 +183,16 @@ Json Plots::curves() const {
   out["log"] = plan.log;
   plan.not_shown = 0;  // the page's reader chooses the axis
   out["note"] = plot_remarks(plan);
+  std::size_t readings = 0;
+  for (const PlottedIncidence& incidence : plan.incidences) readings += incidence.rows.size();
+  const double kept = kept_part(readings, most_curve_values);
   for (const PlottedIncidence& incidence : plan.incidences) {
-    Rows rows;
-    for (const std::size_t row : incidence.rows) rows.push_back(whole[row]);
-    out["incidences"].push_back(curve(plan, incidence, rows));
+    PlottedIncidence part{incidence.theta_i_deg, {}, {}};
+    for (const std::size_t i : evenly_chosen(incidence.rows.size(), part_of(incidence.rows.size(), kept))) {
+      part.rows.push_back(whole[incidence.rows[i]]);
+      part.signed_theta_r_deg.push_back(incidence.signed_theta_r_deg[i]);
+    }
+    out["incidences"].push_back(curve(plan, part));
   }
   return out;
 }
@@ -195,15 +215,14 @@ Json Plots::maps() const {
     for (const std::size_t row : panel.rows) out_of_plane += scan_.plane_side(row) == 0 ? 1 : 0;
     readings += panel.rows.size();
   }
-  const double kept = std::min(1.0, static_cast<double>(most_values) /
-                                        static_cast<double>(std::max<std::size_t>(1, readings * channels_.size())));
+  const double kept = kept_part(readings, most_map_values);
   Json out;
   out["available"] = 5 * out_of_plane > readings;
   out["panels"] = Json::array();
   for (const ResidualPanel& panel : panels) {
-    const auto most = static_cast<std::size_t>(std::ceil(kept * static_cast<double>(panel.rows.size())));
     Rows rows;
-    for (const std::size_t i : evenly_chosen(panel.rows.size(), most)) rows.push_back(panel.rows[i]);
+    for (const std::size_t i : evenly_chosen(panel.rows.size(), part_of(panel.rows.size(), kept)))
+      rows.push_back(panel.rows[i]);
     Json one = panel_json(panel, scan_, rows);
     one["channels"] = series(rows);
     out["panels"].push_back(std::move(one));

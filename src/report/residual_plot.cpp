@@ -1,5 +1,5 @@
-#include "report/number_text.h"
 #include "report/residual_plot.h"
+#include "report/number_text.h"
 
 #include <algorithm>
 #include <array>

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "brdf/batch_evaluator.h"
+#include "geometry/angles.h"
 #include "geometry/direction.h"
 #include "geometry/direction_batch.h"
 
@@ -53,7 +54,7 @@ struct Samples {
 };
 
 Samples sample_sphere(std::size_t size) {
-  const Direction light = unit(-0.62, 0.62, 0.75);
+  const Direction light = unit(-0.55, 0.6, 0.85);
   const Direction viewer{0.0, 0.0, 1.0};
   Samples out;
   out.covered.assign(size * size, 0.0);
@@ -80,7 +81,8 @@ Samples sample_sphere(std::size_t size) {
   return out;
 }
 
-double luminance(const Color& c) { return 0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2]; }
+// Of the brightest primary: by luminance a deep red would lose its shading to clipping.
+double brightness(const Color& c) { return std::max({c[0], c[1], c[2]}); }
 
 std::uint8_t srgb(double linear) {
   const double c = std::clamp(linear, 0.0, 1.0);
@@ -88,13 +90,15 @@ std::uint8_t srgb(double linear) {
   return static_cast<std::uint8_t>(std::lround(255.0 * encoded));
 }
 
-// What the brightness is set by; 1 for a sphere that reflects nothing.
+// What the brightness is set by.
 double exposure_reference(std::vector<double> lit) {
   std::erase_if(lit, [](double y) { return !(y > 0.0); });
-  if (lit.empty()) return 1.0;
+  // Longer exposures than forty of white's would show what nobody measures.
+  constexpr double least = 1.0 / (40.0 * pi);
+  if (lit.empty()) return least;
   const auto at = lit.begin() + static_cast<std::ptrdiff_t>(exposed_part * static_cast<double>(lit.size() - 1));
   std::nth_element(lit.begin(), at, lit.end());
-  return *at;
+  return std::max(*at, least);
 }
 
 // One material channel a colour; f cos(theta_i), the mean over each pixel.
@@ -187,17 +191,16 @@ SpherePicture sphere_picture(const Material& material, std::size_t size) {
   const Samples samples = sample_sphere(size);
   std::vector<Color> image = radiances(material, out.bands, samples, size * size);
   std::vector<double> lit;
-  for (const Color& c : image) lit.push_back(luminance(c));
+  for (const Color& c : image) lit.push_back(brightness(c));
   const double highest = *std::max_element(lit.begin(), lit.end());
   const double reference = exposure_reference(std::move(lit));
   const double scale = exposed_to / reference;
-  constexpr double white_radiance = 0.318309886183790672;  // 1/pi, of f = 1/pi facing the light
-  out.white = white_radiance / reference;
+  out.exposure = scale / pi;  // the white diffuser's radiance is 1/pi
   // Below full white only what exceeds it by less than this keeps its shading; a mirror's highlight is a white spot.
   const double burnt = std::clamp(scale * highest, 1.0, 12.0);
   out.rgb.reserve(3 * image.size());
   for (std::size_t p = 0; p < image.size(); ++p) {
-    const double y = scale * luminance(image[p]);
+    const double y = scale * brightness(image[p]);
     const double toned = (1.0 + y / (burnt * burnt)) / (1.0 + y) * scale;
     for (const double c : image[p]) {
       out.rgb.push_back(srgb(toned * c + (1.0 - samples.covered[p]) * background));

@@ -22,9 +22,8 @@ struct SpherePicture {
   std::size_t size = 0;           ///< pixels a side
   std::vector<std::uint8_t> rgb;  ///< row by row from the top, sRGB
   PictureBands bands;
-  /// Radiance of a white diffuser facing the light, in units of what is drawn as four fifths of full white before the
-  /// highlights are compressed: below 1 the picture is brighter than a camera set for white would make it.
-  double white = 1.0;
+  /// Exposure, as a multiple of the one that draws a white diffuser facing the light as full white.
+  double exposure = 1.0;
 };
 
 /// An orthographic view of a sphere on grey under one directional light from the upper left, no light from elsewhere.

@@ -9,8 +9,8 @@
 namespace goniofit::test {
 namespace {
 
-const std::vector<std::string> commands{"inspect",  "fit",  "compare", "simulate", "eval",  "verify",
-                                        "tradeoff", "plan", "export",  "curves",   "models"};
+const std::vector<std::string> commands{"inspect",  "fit",  "compare", "simulate", "eval",   "verify",
+                                        "tradeoff", "plan", "export",  "report",   "curves", "models"};
 
 TEST(Help, NamesEveryCommand) {
   const Outcome help = goniofit({"--help"});
@@ -31,7 +31,7 @@ TEST(Help, EveryCommandHasAnExampleOfItself) {
 
 TEST(Help, FitNamesWhatItSaysBesideTheReport) {
   const Outcome help = goniofit({"fit", "--help"});
-  for (const char* const flag : {"--profile ", "--profile-plot ", "--residual-plot "})
+  for (const char* const flag : {"--profile ", "--profile-plot ", "--residual-plot ", "--report "})
     EXPECT_NE(help.out.find(flag), std::string::npos) << help.out;
 }
 
@@ -65,6 +65,9 @@ TEST(Usage, BadUsageIsStatus2WithNothingOnStandardOutput) {
       {{"export", "m.json", "--format", "exr"}, "needs a file"},
       {{"export", "a.json", "b.json", "--format", "json"}, "holds one material"},
       {{"export", "a.json", "--format", "exr", "-o", "a.exr", "--size", "0"}, "--size"},
+      {{"report", "m.json"}, "SCAN is required"},
+      {{"report", "m.json", "s.csv"}, "--output is required"},
+      {{"fit", "s.csv", "--report", "-"}, "--report: a page needs a file name"},
       {{"models", "extra"}, "extra"},
   };
   for (const auto& [arguments, message] : cases) {

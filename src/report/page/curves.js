@@ -2,7 +2,7 @@
 
 import { report, floats, series, residuals, residualText, residualIsPart, quantile, roundedUp } from "./data.js";
 import { choice, el, section, whenSeen } from "./dom.js";
-import { incidence, superscript } from "./format.js";
+import { incidence, residualTick, superscript } from "./format.js";
 import { axis, curveStyle, draw, ink } from "./plotting.js";
 import { choose, onChoice, state } from "./state.js";
 
@@ -48,7 +48,9 @@ function residualRange(all) {
   return residualIsPart ? Math.min(end, 1) : end;
 }
 
-const clipped = (values, end) => Array.from(values, (v) => Math.max(-end, Math.min(end, v)));
+// Those beyond the frame stand at its edge; parts of one become percent.
+const percents = residualIsPart ? 100 : 1;
+const clipped = (values, end) => Array.from(values, (v) => percents * Math.max(-end, Math.min(end, v)));
 
 function traces(all, shown, end, log) {
   return all.flatMap((one, i) => {
@@ -72,7 +74,7 @@ function traces(all, shown, end, log) {
       {
         ...common, x: one.theta, y: clipped(one.residuals, end), yaxis: "y2", mode: "markers",
         marker: { ...marker, size: many ? 3 : 5 }, showlegend: false,
-        hovertemplate: own ? `%{y:${residualIsPart ? ".1%" : ".2f"}} at %{x:.4g}°<extra>${name}</extra>` : undefined,
+        hovertemplate: own ? `%{y:+.2~f}${residualIsPart ? " %" : " u"} at %{x:.4g}°<extra>${name}</extra>` : undefined,
       },
     ];
   });
@@ -99,15 +101,16 @@ export function curvesSection() {
     const narrow = plot.clientWidth < 560;
     draw(plot, traces(all, shown, end, log), {
       xaxis: axis({
-        title: { text: "θᵣ / °, forward to the right" }, anchor: "y2", range: [-91, 91], tickvals: [-90, -60, -30, 0, 30, 60, 90],
+        title: "θᵣ / °, forward to the right", anchor: "y2", range: [-91, 91], tickvals: [-90, -60, -30, 0, 30, 60, 90],
       }),
       yaxis: axis({
-        title: { text: "BRDF / sr⁻¹" }, domain: [0.33, 1], range, type: log ? "log" : "linear",
+        title: "BRDF / sr⁻¹", domain: [0.33, 1], range, type: log ? "log" : "linear",
         ...(log ? powerTicks(range) : { rangemode: "normal" }),
       }),
       yaxis2: axis({
-        title: { text: "residual" }, domain: [0, 0.24], range: [-1.08 * end, 1.08 * end], nticks: 5, zeroline: true,
-        zerolinecolor: ink.faint, tickformat: residualIsPart ? "+.0~%" : "+.2~f",
+        title: "residual", domain: [0, 0.24], range: [-1.1 * percents * end, 1.1 * percents * end], zeroline: true,
+        zerolinecolor: ink.faint, tickvals: [-1, -0.5, 0, 0.5, 1].map((part) => part * percents * end),
+        ticktext: [-1, -0.5, 0, 0.5, 1].map((part) => residualTick(part * end)),
       }),
       legend: narrow
         ? { orientation: "h", y: 1.02, yanchor: "bottom", x: 0, itemclick: false, itemdoubleclick: false, tracegroupgap: 0 }
@@ -136,10 +139,8 @@ export function curvesSection() {
       redraw();
     }),
   );
-  whenSeen(plot, () => {
-    redraw();
-    onChoice((change) => "channel" in change && redraw());
-  });
+  const refresh = whenSeen(plot, redraw);
+  onChoice((change) => "channel" in change && refresh());
   return section(
     "curves",
     "In the plane of incidence",
@@ -148,7 +149,7 @@ export function curvesSection() {
     el(
       "p",
       { class: "caption" },
-      `Marks are readings, lines the fit. Beneath: ${residualText}${residualIsPart ? ", at most ±100 %" : ""}. `,
+      `Marks are readings, lines the fit. Beneath: ${residualText}${residualIsPart ? ", at most ±100 %" : ""}; those beyond the frame stand at its edge. `,
       curves.note ? `Shown: ${curves.note}.` : "",
     ),
   );

@@ -150,12 +150,12 @@ function materialFile() {
 }
 
 export function sourceSection() {
-  const { inputs, command, versions, seed, metadata } = report.source;
+  const { inputs, command, versions, random, metadata } = report.source;
   const entries = [
     ...inputs.map(({ role, file, sha256 }) => [role, [el("span", {}, file), el("code", { class: "hash" }, `SHA-256 ${sha256}`)]]),
     ["command", [el("code", {}, command)]],
     ["versions", [[...versions, ["Plotly", plotlyVersion]].map((pair) => pair.join(" ")).join(", ")]],
-    ["random numbers", [seed]],
+    ["random numbers", [random]],
     ...metadata.filter(([key]) => key !== "name").map(([key, value]) => [`scan: ${key}`, [value]]),
   ];
   return section("source", "Where this page comes from",

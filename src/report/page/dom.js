@@ -7,25 +7,29 @@ export function el(tag, attributes = {}, ...children) {
     if (name.startsWith("on")) node.addEventListener(name.slice(2), value);
     else node.setAttribute(name, value === true ? "" : value);
   }
-  node.append(...children.flat().filter((child) => child !== null && child !== undefined && child !== ""));
+  node.append(...children.flat(Infinity).filter((child) => ![null, undefined, false, ""].includes(child)));
   return node;
 }
 
-/// A table. A cell is text, a node, or {text, ...attributes}; columns are {title, align}.
+/// A table. A cell is text, a node, or {text, ...attributes}; columns are {title, align, span}, one without a title lying
+/// under the one before. Columns that stay empty are left out.
 export function table(caption, columns, rows, attributes = {}) {
+  const plain = (content) => typeof content !== "object" || content === null || content instanceof Node;
   const cell = (tag, content, align) => {
-    const plain = typeof content !== "object" || content === null || content instanceof Node;
-    const { text, ...more } = plain ? { text: content } : content;
+    const { text, ...more } = plain(content) ? { text: content } : content;
     return el(tag, { class: align, ...more }, text ?? "");
   };
-  const head = el("tr", {}, columns.map((c) => el("th", { scope: "col", class: c.align }, c.title)));
+  const isEmpty = (content) => ["", null, undefined].includes(plain(content) ? content : content.text);
+  const kept = columns.map((_, i) => i === 0 || rows.some((row) => !isEmpty((row.cells ?? row)[i])));
+  const head = el("tr", {}, columns.map((c, i) =>
+    kept[i] && c.title !== undefined && el("th", { scope: "col", class: c.align, colspan: c.span }, c.title)));
   const body = rows.map((row) =>
-    el("tr", row.attributes ?? {}, (row.cells ?? row).map((c, i) => cell(i === 0 ? "th" : "td", c, columns[i].align))),
+    el("tr", row.attributes ?? {}, (row.cells ?? row).map((c, i) => kept[i] && cell(i === 0 ? "th" : "td", c, columns[i].align))),
   );
   for (const row of body) row.firstChild?.setAttribute("scope", "row");
   return el(
     "div",
-    { class: "scroll", tabindex: "0", role: "region", "aria-label": caption },
+    { class: rows.length > 14 ? "scroll long" : "scroll", tabindex: "0", role: "region", "aria-label": caption },
     el("table", attributes, el("caption", {}, caption), el("thead", {}, head), el("tbody", {}, body)),
   );
 }
@@ -59,19 +63,24 @@ export function section(id, title, ...children) {
   return el("section", { id, "aria-labelledby": `${id}-title` }, el("h2", { id: `${id}-title` }, title), ...children);
 }
 
-/// Calls `draw` when the element comes near the window, or before the page is printed: plots below cost nothing at
-/// first.
+/// Calls `draw` when the element comes near the window, or before the page is printed: plots out of sight cost nothing.
+/// Returns what to call where it is to be drawn again.
 export function whenSeen(element, draw) {
-  let waiting = true;
-  const once = () => {
-    if (!waiting) return;
-    waiting = false;
-    observer.disconnect();
+  let near = false;
+  let stale = true;
+  const update = () => {
+    if (!near || !stale) return;
+    stale = false;
     draw();
   };
-  const observer = new IntersectionObserver((entries) => entries.some((e) => e.isIntersecting) && once(), {
-    rootMargin: "300px",
-  });
-  observer.observe(element);
-  window.addEventListener("beforeprint", once);
+  const see = (isNear) => {
+    near = isNear;
+    update();
+  };
+  new IntersectionObserver((entries) => see(entries.at(-1).isIntersecting), { rootMargin: "250px" }).observe(element);
+  window.addEventListener("beforeprint", () => see(true));
+  return () => {
+    stale = true;
+    update();
+  };
 }

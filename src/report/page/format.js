@@ -1,5 +1,7 @@
 // Numbers and names as a reader wants them.
 
+import { residualIsPart } from "./data.js";
+
 const plain = new Map([
   ["slope", "RMS slope σ/τ"],
   ["slope_y", "RMS slope across"],
@@ -33,13 +35,20 @@ export function number(value, digits = 3) {
   return text.replace("-", "−");
 }
 
+/// The same without trailing zeros, for the ticks of a scale.
+export const tick = (value, digits = 3) => number(Number(value.toPrecision(digits)), digits).replace(/(\.\d*?)0+(?=·|$)/, "$1").replace(/\.(?=·|$)/, "");
+
 export const percent = (part, digits = 2) => `${number(100 * part, digits)} %`;
 
 export function superscript(integer) {
   return [...String(integer)].map((c) => "⁰¹²³⁴⁵⁶⁷⁸⁹"[c] ?? "⁻").join("");
 }
 
-export const angle = (degrees) => String(Math.round(10 * degrees) / 10);
+/// A residual with its sign, as percent where it is a part of a value.
+export const residualTick = (value) =>
+  (value > 0 ? "+" : "") + (residualIsPart ? `${tick(100 * value, 2)} %` : tick(value, 2));
+
+export const angle = (degrees) => String(Math.round(10 * degrees) / 10).replace("-", "−");
 
 /// "45°", or "30–44°" of a class.
 export function incidence(panel) {

@@ -43,12 +43,12 @@ function azimuths(stored) {
 function surfaceOf(lobe, values, radius, top) {
   const theta = floats(lobe.theta);
   const stored = floats(lobe.phi);
-  const around = azimuths(stored);
+  const around = azimuths(stored).reverse(); // so that the outside is the lit one
   const grid = (component) =>
     Array.from(theta, (t, row) =>
       around.map(({ phi, i }) => radius(values[row * stored.length + i], top) * direction(t, phi)[component]));
   return {
-    type: "surface", x: grid(0), y: grid(1), z: grid(2), showscale: false, hoverinfo: "skip", opacity: 0.96,
+    type: "surface", x: grid(0), y: grid(1), z: grid(2), showscale: false, hoverinfo: "skip", opacity: 1,
     surfacecolor: grid(2).map((row) => row.map(() => 0)),
     colorscale: [[0, "#7fa9c4"], [1, "#7fa9c4"]],
     lighting: { ambient: 0.5, diffuse: 0.75, specular: 0.12, roughness: 0.7, fresnel: 0.05 },
@@ -83,7 +83,7 @@ function frame(thetaI) {
   const ray = (theta, phi) => [[0, 0, 0], direction(theta, phi).map((c) => 1.12 * c)];
   return [
     line(horizon, ink.faint, "solid"),
-    line([[-1, 0, 0], [1, 0, 0]], ink.line, "solid"),
+    line([[-1, 0, 0], [1, 0, 0]], ink.line, "solid", "forward"),
     line([[0, -1, 0], [0, 1, 0]], ink.line, "solid"),
     line(ray(thetaI, 0), "#000", "solid", "light"),
     line(ray(thetaI, 180), "#000", "dash", "mirror"),
@@ -109,7 +109,7 @@ function camera(turn, height, distance = 1.75) {
       y: distance * Math.cos(height * rad) * Math.sin(turn * rad),
       z: distance * Math.sin(height * rad),
     },
-    center: { x: 0, y: 0, z: -0.12 },
+    center: { x: 0, y: 0, z: -0.16 },
     up: { x: 0, y: 0, z: 1 },
   };
 }
@@ -125,14 +125,8 @@ export function lobesSection() {
   let scale = "cube";
   let view = { turn: -65, height: 22 };
 
-  // What printers get: they draw no WebGL.
-  let waiting = 0;
-  const keepStill = () => {
-    clearTimeout(waiting);
-    waiting = setTimeout(() => snapshot(plot, { width: 900, height: 560 }).then((png) => (still.src = png)), 400);
-  };
-
-  const redraw = (first) => {
+  const redraw = () => {
+    const first = !plot.data;
     const l = nearest(lobePanels, state.panel);
     const c = nearest(lobeChannels, state.channel);
     const panel = panels[lobePanels[l]];
@@ -149,7 +143,6 @@ export function lobesSection() {
         margin: { l: 0, r: 0, t: 0, b: 0 },
       },
     );
-    keepStill();
   };
   const turn = (by, up) => {
     const { eye } = plot.layout.scene.camera ?? camera(view.turn, view.height);
@@ -158,7 +151,6 @@ export function lobesSection() {
       height: Math.max(0, Math.min(88, Math.atan2(eye.z, Math.hypot(eye.x, eye.y)) / rad + up)),
     };
     relayout(plot, { "scene.camera": camera(view.turn, view.height, Math.hypot(eye.x, eye.y, eye.z)) });
-    keepStill();
   };
   const button = (text, name, by, up) =>
     el("button", { type: "button", "aria-label": name, title: name, onclick: () => turn(by, up) }, text);
@@ -172,17 +164,16 @@ export function lobesSection() {
       { value: "log", text: "Logarithmic" },
     ], scale, (value) => {
       scale = value;
-      redraw(false);
+      refresh();
     }),
     el("fieldset", { class: "choice" }, el("legend", {}, "Turn"),
       el("div", { class: "buttons turn" },
         button("←", "turn left", -15, 0), button("→", "turn right", 15, 0),
         button("↑", "look from higher up", 0, 12), button("↓", "look from lower down", 0, -12))));
-  whenSeen(plot, () => {
-    redraw(true);
-    plot.on("plotly_relayout", keepStill);
-    onChoice(() => redraw(false));
-  });
+  const refresh = whenSeen(plot, redraw);
+  onChoice(refresh);
+  // What printers get, who draw no WebGL; after the above has drawn.
+  window.addEventListener("beforeprint", () => (still.src = snapshot(plot)));
   return section("lobes", title, controls, plot, still,
     el("p", { class: "caption" },
       "The surface is the fit, as far from the centre as its value is large; points are readings. Drag to turn, or use the buttons. ",

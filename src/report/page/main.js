@@ -22,7 +22,7 @@ document.getElementById("page").replaceWith(
     report.plots.note ? el("p", { class: "caption" }, `Of many channels, ${report.plots.note}.`) : null),
 );
 
-// On paper nothing can be opened.
+// Paper cannot be opened: the file stays out of it.
 window.addEventListener("beforeprint", () => {
   for (const details of document.querySelectorAll("details")) details.open = false;
 });

@@ -5,12 +5,12 @@ import { Delaunay } from "d3-delaunay";
 import { report, floats, series, residuals, residualText, residualIsPart, quantile, roundedUp } from "./data.js";
 import { choice, el, section, whenSeen } from "./dom.js";
 import { channelChoice } from "./curves.js";
-import { angle, incidence, number, percent, superscript } from "./format.js";
+import { angle, incidence, number, percent, residualTick, tick } from "./format.js";
 import { diverging, draw, ink, sequential } from "./plotting.js";
 import { choose, onChoice, state } from "./state.js";
 
 const { panels, available, note } = report.plots.maps;
-const cells = 180; // a side of the raster
+const cells = 220; // a side of the raster
 const decades = 4; // of the logarithmic colour scale, at most
 
 // The horizon lies at 1. Seen from above, forward to the right, azimuths counter-clockwise.
@@ -36,7 +36,7 @@ function geometryOf(p) {
     for (let column = 0; column < cells; column++) {
       const x = (2 * (column + 0.5)) / cells - 1;
       const y = (2 * (row + 0.5)) / cells - 1;
-      if (x * x + y * y > 1) continue;
+      if (x * x + y * y > 1.03) continue;
       at = delaunay.find(x, y, at);
       if (Math.hypot(points[at][0] - x, points[at][1] - y) < reach) nearest[row * cells + column] = at;
     }
@@ -57,37 +57,49 @@ const raster = (nearest, value) =>
 const centres = Array.from({ length: cells }, (_, i) => (2 * (i + 0.5)) / cells - 1);
 
 const circle = (r, line) => ({ type: "circle", x0: -r, x1: r, y0: -r, y1: r, line, layer: "above" });
+// A ring of white hides the stairs that the raster makes of the horizon.
+const path = (r) => Array.from({ length: 181 }, (_, i) => {
+  const t = (i * Math.PI) / 90;
+  return `${i ? "L" : "M"}${(r * Math.cos(t)).toFixed(4)},${(r * Math.sin(t)).toFixed(4)}`;
+}).join("") + "Z";
 const rings = [
+  { type: "path", path: path(1) + path(1.04), fillcolor: "#fff", fillrule: "evenodd", line: { width: 0 }, layer: "above" },
   circle(1, { color: ink.faint, width: 1.2 }),
   ...[30, 60].map((t) => circle(mapRadius(t), { color: "rgba(128,128,128,0.55)", width: 0.8, dash: "dot" })),
 ];
 
-const hidden = { visible: false, range: [-1.1, 1.1], fixedrange: true };
-const bar = (title, more) => ({
-  orientation: "h", thickness: 10, len: 0.86, y: -0.02, yanchor: "top", outlinewidth: 0, ticks: "outside", ticklen: 3,
-  tickfont: { size: 11 }, title: { text: title, side: "bottom", font: { size: 12 } }, ...more,
-});
+const hidden = { visible: false, range: [-1.06, 1.06], fixedrange: true };
+
+/// A colour scale with its ticks, each {at: 0 … 1, text}.
+function scaleBar(title, colors, ticks) {
+  const stops = colors.map(([at, color]) => `${color} ${100 * at}%`).join(", ");
+  return [
+    el("div", { class: "gradient", style: `background: linear-gradient(to right, ${stops})` }),
+    el("div", { class: "ticks" }, ticks.map(({ at, text }) => el("span", { style: `left: ${(100 * at).toFixed(2)}%` }, text))),
+    el("div", { class: "unit" }, title),
+  ];
+}
 
 function marks(p) {
-  const [mx, my] = mapPoint(panels[p].theta_i, 180);
-  const mark = (x, y, symbol, name) => ({
-    x: [x], y: [y], mode: "markers", showlegend: false, hoverinfo: "skip", name,
-    marker: { symbol, size: 11, color: "rgba(0,0,0,0)", line: { color: "#fff", width: 3.2 } },
+  const [mx, my] = mapPoint((panels[p].theta_i + panels[p].theta_i_high) / 2, 180);
+  const mark = (x, y, symbol, color, width) => ({
+    x: [x], y: [y], mode: "markers", showlegend: false, hoverinfo: "skip",
+    marker: { symbol, size: 11, color, line: { color, width } },
   });
-  const over = (trace) => ({ ...trace, marker: { ...trace.marker, line: { color: "#000", width: 1.3 } } });
-  const both = [mark(mx, my, "cross-thin", "mirror"), mark(-mx, my, "circle-open", "light")];
-  return both.flatMap((trace) => [trace, over(trace)]);
+  // Black on white, to be seen on any colour.
+  return [["#fff", 3.4], ["#000", 1.4]].flatMap(([color, width]) => [
+    mark(mx, my, "x-thin", color, width), mark(-mx, my, "circle-open", color, width)]);
 }
 
 function drawMap(node, p, z, colors, more = []) {
   return draw(
     node,
-    [{ type: "heatmap", x: centres, y: centres, z, hoverinfo: "none", zsmooth: false, ...colors }, ...more, ...marks(p)],
+    [{ type: "heatmap", x: centres, y: centres, z, hoverinfo: "none", ...colors }, ...more, ...marks(p)],
     {
       xaxis: hidden,
       yaxis: { ...hidden, scaleanchor: "x" },
       shapes: rings,
-      margin: { l: 4, r: 4, t: 4, b: 58 },
+      margin: { l: 2, r: 2, t: 2, b: 2 },
       dragmode: false,
       annotations: [30, 60].map((t) => ({
         x: 0, y: mapRadius(t), text: `${t}°`, showarrow: false, yshift: 7, font: { size: 10, color: ink.text },
@@ -101,22 +113,26 @@ function drawMap(node, p, z, colors, more = []) {
 function valueScale(values, log) {
   const all = [...values.measured, ...values.fitted];
   const top = all.reduce((a, b) => Math.max(a, b), 0) || 1;
-  if (!log) return { of: (f) => f, zmin: Math.min(0, quantile(values.measured, 0.01)), zmax: top, bar: bar("sr⁻¹", { nticks: 5 }) };
-  const low = Math.max(quantile(all.filter((f) => f > 0), 0.02), top / 10 ** decades);
+  const of = log ? (f) => Math.log10(Math.max(f, low)) : (f) => f;
+  const low = log
+    ? Math.max(quantile(all.filter((f) => f > 0), 0.02), top / 10 ** decades)
+    : Math.min(0, quantile(values.measured, 0.01));
+  const [zmin, zmax] = [of(low), of(top)];
+  return { of, zmin, zmax, ticks: valueTicks(low, top, log).map((v) => ({ at: (of(v) - zmin) / (zmax - zmin), text: tick(v) })) };
+}
+
+/// Round numbers between two values; of several decades powers of ten alone.
+function valueTicks(low, top, log) {
+  const first = Math.floor(Math.log10(Math.max(log ? low : top / 100, 1e-300)));
+  const last = Math.ceil(Math.log10(top));
+  if (!log) {
+    const step = roundedUp(top / 5);
+    return Array.from({ length: 6 }, (_, i) => i * step).filter((v) => v <= top);
+  }
+  const mantissas = last - first > 3 ? [1] : last - first > 2 ? [1, 3] : [1, 2, 5];
   const ticks = [];
-  for (let e = Math.ceil(Math.log10(low)); e <= Math.log10(top); e++) ticks.push(e);
-  const fine = ticks.length > 1;
-  const values125 = [1, 2, 5].flatMap((m) => [-1, 0].map((d) => m * 10 ** (Math.floor(Math.log10(top)) + d)));
-  const shown = fine ? ticks.map((e) => 10 ** e) : values125.filter((v) => v >= low && v <= top);
-  return {
-    of: (f) => Math.log10(Math.max(f, low)),
-    zmin: Math.log10(low),
-    zmax: Math.log10(top),
-    bar: bar("sr⁻¹", {
-      tickvals: shown.map(Math.log10),
-      ticktext: shown.map((v, i) => (fine ? `10${superscript(ticks[i])}` : number(v, 1))),
-    }),
-  };
+  for (let e = first; e <= last; e++) ticks.push(...mantissas.map((m) => m * 10 ** e));
+  return ticks.filter((v) => v >= low && v <= top);
 }
 
 function differenceScale(values) {
@@ -135,6 +151,8 @@ export function mapsSection() {
     el("figure", { class: "map" }, el("figcaption", {}, name),
       el("div", { class: "plot", role: "img", "aria-label": `${name}, map of the hemisphere` })));
   const [measuredNode, fittedNode, differenceNode] = nodes.map((node) => node.lastChild);
+  const commonBar = el("div", { class: "bar common" });
+  const differenceBar = el("div", { class: "bar" });
   const readout = el("p", { class: "readout", "aria-live": "polite" }, "Point at a map to read it.");
   let log = state.scale === "log";
   let current = null;
@@ -146,21 +164,22 @@ export function mapsSection() {
     const place = geometryOf(p);
     current = { ...place, ...values, off };
     const scale = valueScale(values, log);
-    const colors = { zmin: scale.zmin, zmax: scale.zmax, colorscale: sequential, colorbar: scale.bar };
+    const colors = { zmin: scale.zmin, zmax: scale.zmax, colorscale: sequential, showscale: false };
     drawMap(measuredNode, p, raster(place.nearest, (i) => scale.of(values.measured[i])), colors);
     drawMap(fittedNode, p, raster(place.nearest, (i) => scale.of(values.fitted[i])), colors);
+    commonBar.replaceChildren(...scaleBar("BRDF / sr⁻¹, measured and fitted alike", sequential, scale.ticks));
     const end = differenceScale(off);
     const below = place.points.filter((_, i) => off[i] < 0);
-    drawMap(differenceNode, p, raster(place.nearest, (i) => Math.max(-end, Math.min(end, off[i]))), {
-      zmin: -end, zmax: end, colorscale: diverging,
-      colorbar: bar(residualIsPart ? "of the larger" : "in units of u", {
-        tickvals: [-end, -end / 2, 0, end / 2, end],
-        ticktext: [-end, -end / 2, 0, end / 2, end].map((v) => (v > 0 ? "+" : "") + (residualIsPart ? percent(v) : number(v, 2))),
-      }),
-    }, [{
-      x: below.map((q) => q[0]), y: below.map((q) => q[1]), mode: "markers", hoverinfo: "skip", showlegend: false,
-      marker: { size: below.length > 600 ? 1.6 : 2.4, color: "rgba(20,30,40,0.75)" },
-    }]);
+    drawMap(differenceNode, p, raster(place.nearest, (i) => Math.max(-end, Math.min(end, off[i]))),
+      { zmin: -end, zmax: end, colorscale: diverging, showscale: false },
+      [{
+        x: below.map((q) => q[0]), y: below.map((q) => q[1]), mode: "markers", hoverinfo: "skip", showlegend: false,
+        marker: { size: below.length > 600 ? 1.6 : 2.4, color: "rgba(20,30,40,0.75)" },
+      }]);
+    differenceBar.replaceChildren(...scaleBar(residualText, diverging, [-1, -0.5, 0, 0.5, 1].map((part) => ({
+      at: (part + 1) / 2,
+      text: residualTick(part * end),
+    }))));
   };
 
   const read = (event) => {
@@ -183,17 +202,18 @@ export function mapsSection() {
         log = value === "log";
         redraw();
       }));
-  const grid = el("div", { class: "maps" }, nodes);
-  whenSeen(grid, () => {
+  const grid = el("div", { class: "maps" }, nodes[0], nodes[1], commonBar, nodes[2], differenceBar);
+  const refresh = whenSeen(grid, () => {
+    const first = current === null;
     redraw();
-    for (const node of [measuredNode, fittedNode, differenceNode]) node.on("plotly_hover", read);
-    onChoice(redraw);
+    if (first) for (const node of [measuredNode, fittedNode, differenceNode]) node.on("plotly_hover", read);
   });
+  onChoice(refresh);
   return section("maps", title, controls, grid, readout,
     el("p", { class: "caption" },
       "Seen from above, forward to the right, in Lambert’s equal-area projection; rings at θᵣ = 30° and 60°. ",
       "Each cell is one reading, white where the scan has none near. ✕ is the mirror direction, ○ the light’s. ",
-      `Difference: ${residualText}; dots mark readings below the fit.`, note ? ` Shown: ${note}.` : ""));
+      "Dots mark readings below the fit.", note ? ` Shown: ${note}.` : ""));
 }
 
 /// A choice of the incidence angle, common to maps and lobes.

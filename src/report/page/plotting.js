@@ -34,7 +34,8 @@ export const diverging = [
 
 const font = { family: 'system-ui, -apple-system, "Segoe UI", Roboto, "Noto Sans", sans-serif', size: 13, color: ink.text };
 
-export const axis = (more = {}) => ({
+export const axis = ({ title, ...more } = {}) => ({
+  title: title && { text: title, font: { size: 13 }, standoff: 8 },
   zeroline: false,
   showline: true,
   linecolor: ink.line,
@@ -65,9 +66,27 @@ const config = {
   scrollZoom: false,
 };
 
+const drawn = new Set();
+
 /// Draws, or draws anew; the element's own place in the page gives its size.
-export const draw = (node, traces, plotLayout, more = {}) =>
-  Plotly.react(node, traces, { ...layout(), ...plotLayout }, { ...config, ...more });
+export function draw(node, traces, plotLayout) {
+  drawn.add(node);
+  return Plotly.react(node, traces, { ...layout(), ...plotLayout }, config);
+}
+
+// On paper the page is as wide as paper, and its plots with it.
+window.addEventListener("beforeprint", () => {
+  document.documentElement.classList.add("paper");
+  for (const node of drawn) {
+    const { clientWidth: width, clientHeight: height } = node;
+    if (width) Plotly.relayout(node, { width, height });
+  }
+});
+window.addEventListener("afterprint", () => {
+  document.documentElement.classList.remove("paper");
+  for (const node of drawn) Plotly.relayout(node, { width: null, height: null, autosize: true });
+});
 
 export const relayout = (node, update) => Plotly.relayout(node, update);
-export const snapshot = (node, size) => Plotly.toImage(node, { format: "png", ...size });
+/// A picture of a plot in space, as it stands, at once: Plotly.toImage comes too late for a printer.
+export const snapshot = (node) => node._fullLayout.scene._scene.toImage("png");

@@ -25,7 +25,7 @@ function drawProfile(node, profile) {
       hovertemplate: "%{x:.5g}: √Δ = %{y:.2f}<extra></extra>" },
   ], {
     xaxis: axis({ nticks: 5, range: [Math.min(...x), Math.max(...x)] }),
-    yaxis: axis({ range: [0, top], nticks: 4, title: { text: "√Δ", font: { size: 12 } } }),
+    yaxis: axis({ range: [0, top], nticks: 4, title: "√Δ" }),
     shapes: [level(1), level(profile.coverage_factor), ...limits],
     showlegend: false,
     margin: { l: 44, r: 10, t: 6, b: 34 },

@@ -3,9 +3,16 @@
 import { report } from "./data.js";
 
 const listeners = [];
+// At some 45° lobes stand clear of the normal and of the horizon.
+function telling() {
+  const off = report.plots.maps.panels.map((panel) => Math.abs(panel.theta_i - 45));
+  return Math.max(0, off.indexOf(Math.min(...off)));
+}
+
 export const state = {
-  channel: 0,
-  panel: 0, // incidence angle of maps and lobes
+  // Of a spectrum the middle.
+  channel: report.plots.channels.length > 4 ? Math.floor(report.plots.channels.length / 2) : 0,
+  panel: telling(), // incidence angle of maps and lobes
   scale: report.plots.curves.log ? "log" : "linear",
 };
 

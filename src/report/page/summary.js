@@ -6,6 +6,17 @@ import { meaning } from "./format.js";
 
 const signs = { describes: "✓", systematic: "≈", fails: "✕" };
 
+// What follows the words that the verdict has said already.
+function sentence(finding) {
+  const text = finding.slice(finding.indexOf(": ") + 1).trim();
+  return text && `${text[0].toUpperCase()}${text.slice(1)}.`;
+}
+
+function warningLink() {
+  const count = report.fit.warnings.length;
+  return count ? [" ", el("a", { href: "#notes" }, count === 1 ? "One warning" : `${count} warnings`), "."] : null;
+}
+
 export function header() {
   const { verdict, sphere, subject } = report;
   return el(
@@ -16,7 +27,7 @@ export function header() {
       el("h1", {}, report.title || "(no name)"),
       verdict && el("p", { class: `verdict ${verdict.name}` },
         el("span", { class: "sign", "aria-hidden": "true" }, signs[verdict.name]), " ", el("strong", {}, verdict.words)),
-      verdict && el("p", { class: "finding" }, verdict.finding),
+      verdict && el("p", { class: "finding" }, sentence(verdict.finding), warningLink()),
       el("dl", { class: "subject" }, subject.map(([label, text]) => [el("dt", {}, label), el("dd", {}, text)]))),
     el("figure", { class: "sphere" },
       el("img", { src: sphere.png, alt: sphere.alt, width: sphere.size, height: sphere.size }),
@@ -45,22 +56,19 @@ function sharedTable() {
     "Shape of the surface, shared by all channels",
     [
       { title: "parameter", align: "left" },
-      { title: "value", align: "right" },
-      { title: "std. unc.", align: "left" },
+      { title: "value ± std. unc.", align: "middle", span: "2" },
+      { align: "left" },
       { title: "95 %", align: "left" },
       { title: "unit", align: "left" },
       { title: "", align: "left" },
     ],
     shared.map((row) => [
       el("span", {}, named(row.name)),
-      row.value === null ? { text: "not determined", class: "open", colspan: "5", ...exact(row) }
-        : { text: row.text.value, class: "right value", ...exact(row) },
-      ...(row.value === null ? [] : [
-        { text: row.text.u && `± ${row.text.u}`, class: "left u" },
-        { text: row.text.interval, class: "left" },
-        row.text.unit,
-        { text: row.text.remark, class: "remark" },
-      ]),
+      { text: row.text.value || "–", class: row.value === null ? "right open" : "right value", ...exact(row) },
+      { text: row.text.u && `± ${row.text.u}`, class: "left u" },
+      row.text.interval,
+      row.text.unit,
+      { text: row.text.remark, class: "remark" },
     ]),
     { class: "parameters" },
   );
@@ -82,7 +90,7 @@ function channelTable() {
     ];
   };
   const columns = [{ title: "channel", align: "left" }];
-  for (const name of names) columns.push({ title: el("span", {}, named(name)), align: "right" }, { title: "", align: "left" });
+  for (const name of names) columns.push({ title: el("span", {}, named(name)), align: "middle", span: "2" }, { align: "left" });
   columns.push({ title: el("span", {}, named("RMS"), el("span", { class: "meaning" }, "sr⁻¹")), align: "right" });
   return table("Coefficients of each channel", columns,
     report.fit.channels.map(({ name, rms }) => [
@@ -93,9 +101,10 @@ function channelTable() {
     { class: "parameters" });
 }
 
+
 export function parametersSection() {
   return section("parameters", "Parameters", el("div", { class: "tables" }, sharedTable(), channelTable()),
-    report.sentences.length ? el("p", { class: "caption" }, `${report.sentences.join(". ")}.`) : null);
+    report.sentences.length ? el("p", { class: "caption" }, report.sentences.map((text) => `${text[0].toUpperCase()}${text.slice(1)}.`).join(" ")) : null);
 }
 
 const list = (items) => el("ul", {}, items.map((item) => el("li", {}, item)));
@@ -103,6 +112,6 @@ const list = (items) => el("ul", {}, items.map((item) => el("li", {}, item)));
 export function notesSection() {
   const { warnings, notes } = report.fit;
   if (!warnings.length && !notes.length) return null;
-  return section("notes", "To be minded", warnings.length ? list(warnings) : null,
-    notes.length ? [el("h3", {}, "Decided on your behalf"), list(notes)] : null);
+  return section("notes", "Warnings and notes", warnings.length ? list(warnings) : null,
+    warnings.length && notes.length ? el("h3", {}, "Notes") : null, notes.length ? list(notes) : null);
 }

@@ -99,9 +99,9 @@ struct UsedReadings {
 
 /// What a fit knows of the readings that it used, in their order.
 struct FittedValues {
-  const PairBatch* pairs = nullptr;  ///< those of the readings come first
-  std::vector<double> fitted{};      ///< [reading * channels + channel], 1/sr
-  std::vector<double> open{};        ///< what the parameters' standard uncertainties change these by
+  const PairBatch* pairs = nullptr;           ///< those of the readings come first; null where nobody holds them
+  std::vector<std::vector<double>> fitted{};  ///< [channel][reading], 1/sr
+  std::vector<std::vector<double>> open{};    ///< what the parameters' standard uncertainties change these by
 };
 
 struct DiagnosticsOptions {

@@ -24,7 +24,7 @@ Model::Model(const Problem& problem)
     : problem_(problem),
       states_(problem.channels.size()),
       parameters_(static_cast<Eigen::Index>(problem.basis->shape_parameters().size())) {
-  for (std::size_t i = 0; i < problem.pairs.size(); ++i) {
+  for (std::size_t i = 0; problem.basis->has_length() && i < problem.pairs.size(); ++i) {
     if (problem.basis->reads_length(problem.pairs[i])) late_rows_.push_back(i);
   }
   late_ = problem.pairs.subset(late_rows_);

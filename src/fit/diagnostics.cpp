@@ -373,6 +373,7 @@ void Diagnosis::add_chi_square() {
 
 FitDiagnostics Diagnosis::result() {
   out_.channels.resize(scan_.channels.size());
+  gathered_.reserve(rows_.size());
   add_reciprocity();
   lines_ = detector_lines(scan_);
   for (const Region region : region_) ++out_.regions[static_cast<std::size_t>(region)].readings;

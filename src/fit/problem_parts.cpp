@@ -9,8 +9,12 @@ namespace goniofit {
 
 namespace {
 
+// `which` ascends.
 Eigen::VectorXd some_of(const Eigen::VectorXd& all, const std::vector<std::size_t>& which) {
-  if (all.size() == 0) return {};
+  if (all.size() == 0 || which.empty()) return {};
+  const std::size_t first = which.front();
+  if (which.back() - first + 1 == which.size())
+    return all.segment(static_cast<Eigen::Index>(first), static_cast<Eigen::Index>(which.size()));
   Eigen::VectorXd out(static_cast<Eigen::Index>(which.size()));
   for (std::size_t i = 0; i < which.size(); ++i)
     out[static_cast<Eigen::Index>(i)] = all[static_cast<Eigen::Index>(which[i])];

@@ -140,8 +140,7 @@ void Assembly::add_reflectances() {
       const auto at = static_cast<Eigen::Index>(i);
       if (channel.used.size() > 0 && channel.used[at] == 0.0) continue;
       const double fitted = channel.value[at] + evidence_.l.deviations[c][at];
-      out_.fitted_reflectances.push_back(
-          {problem_.theta_i_deg[i], channel.name, pi * channel.value[at], pi * fitted});
+      out_.fitted_reflectances.push_back({problem_.theta_i_deg[i], channel.name, pi * channel.value[at], pi * fitted});
     }
   }
 }

@@ -110,12 +110,8 @@ class Diagnosis {
     return !options_.used || options_.used->left_out.empty() || options_.used->left_out[c].empty() ||
            !options_.used->left_out[c][i];
   }
-  [[nodiscard]] double fitted(std::size_t i, std::size_t c) const {
-    return options_.values->fitted[c][i];
-  }
-  [[nodiscard]] double open(std::size_t i, std::size_t c) const {
-    return options_.values->open[c][i];
-  }
+  [[nodiscard]] double fitted(std::size_t i, std::size_t c) const { return options_.values->fitted[c][i]; }
+  [[nodiscard]] double open(std::size_t i, std::size_t c) const { return options_.values->open[c][i]; }
   [[nodiscard]] double floor(std::size_t i, std::size_t c) const {
     const ScanChannel& channel = scan_.channels[c];
     return channel.u.empty() ? out_.channels[c].noise_floor : floor_sds * channel.u[rows_[i]];
@@ -270,12 +266,14 @@ void Diagnosis::add_runs() {
 }
 
 void Diagnosis::add_noise(std::size_t c) {
+  // Of very many readings some thousands of each size tell as much.
+  constexpr std::size_t most = 100000;
+  const std::size_t step = (rows_.size() + most - 1) / most;
   std::vector<double>& model = gathered_;
   std::vector<double>& residuals = gathered_residuals_;
   model.clear();
   residuals.clear();
-  residuals.reserve(rows_.size());
-  for (std::size_t i = 0; i < rows_.size(); ++i) {
+  for (std::size_t i = 0; i < rows_.size(); i += step) {
     if (!counts(i, c)) continue;
     model.push_back(fitted(i, c));
     residuals.push_back(value(i, c) - fitted(i, c));

@@ -47,7 +47,7 @@ struct Misfit {
 struct ChannelDiagnostics {
   Misfit misfit;
   RunsTest runs;    ///< readings in the mirror cone excluded: theirs is coh's, and the instrument's; others as above
-  Noise residuals;  ///< their robust spread; misfit included
+  Noise residuals;  ///< their robust spread, of very many of some 100000 evenly along the scan; misfit included
   double noise_floor = 0.0;  ///< 1/sr: thrice the additive noise of the scan itself; 0 where it cannot be told
   Clipping clipping;
   /// Median of |ln(f(i,r) / f(r,i))|; none without swapped pairs. A reciprocal model misses one of a pair by at least

@@ -120,8 +120,8 @@ Fitted fit_as_asked(const Scan& scan, const FitSettings& settings) {
   auto model = std::make_unique<Model>(*problem);
   const Solved solved = solve_sensibly(*problem, *model, settings, evidence);
   FitResult result = assemble(*problem, scan, solved.best, evidence);
-  const double p = noise_makes_coherence(LinearParts(*problem, solved.best.point, evidence.l),
-                                         evidence.noise, evidence.sums.loss, result.material);
+  const double p = noise_makes_coherence(LinearParts(*problem, solved.best.point, evidence.l), evidence.noise,
+                                         evidence.sums.loss, result.material);
   if (p >= lobe_level) return without_coherence(scan, settings, p);
   result.search_evaluations = solved.evaluations;
   result.polish_starts = solved.starts;
@@ -265,10 +265,9 @@ FitResult fit(const Scan& scan, const FitSettings& settings) {
     result.selection = std::move(selection);
   }
   if (has_values(result.material)) {
-    DiagnosticsOptions options{
-        .weight = result.weight,
-        .free_parameters = free_parameters(result),
-        .values = fitted_values(*fitted.problem, *fitted.model, fitted.point, result.material)};
+    DiagnosticsOptions options{.weight = result.weight,
+                               .free_parameters = free_parameters(result),
+                               .values = fitted_values(*fitted.problem, *fitted.model, fitted.point, result.material)};
     options.used = used_readings(*fitted.problem);
     if (!options.values || options.values->pairs == nullptr) fitted.problem.reset();  // its memory is wanted
     result.diagnostics = diagnose(scan, result.material, std::move(options));

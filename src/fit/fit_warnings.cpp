@@ -297,9 +297,9 @@ void Words::drawn() {
   const std::size_t count = problem_.drawn.rows.size();
   if (count == 0) return;
   const bool by_readings = out_.uncertainty_from == UncertaintySource::readings;
-  note(fmt::format("{} of the {} readings, drawn to stand for all, were searched{}; everything else is from all readings",
-                   count, problem_.readings(),
-                   by_readings ? "" : " and tell the residuals' noise and how far intervals reach"));
+  note(fmt::format(
+      "{} of the {} readings, drawn to stand for all, were searched{}; everything else is from all readings", count,
+      problem_.readings(), by_readings ? "" : " and tell the residuals' noise and how far intervals reach"));
 }
 
 }  // namespace

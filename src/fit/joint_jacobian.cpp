@@ -107,9 +107,7 @@ std::vector<bool> JointJacobian::in_null_space() const {
   return null;
 }
 
-Eigen::MatrixXd JointJacobian::own_root(std::size_t channel) const {
-  return root_(index_[channel], Eigen::all);
-}
+Eigen::MatrixXd JointJacobian::own_root(std::size_t channel) const { return root_(index_[channel], Eigen::all); }
 
 Eigen::VectorXd JointJacobian::transposed_times(const std::vector<Eigen::VectorXd>& v) const {
   Eigen::VectorXd out = Eigen::VectorXd::Zero(size());

@@ -23,8 +23,7 @@ class LinearParts {
   /// Of a problem by parts each is linearised for the visit, and forgotten.
   void for_each(const Visit& visit) const;
   /// Readings that stand for all, each for factor² of them (thinning.h); of a problem in one piece all, and no factors.
-  using VisitSome =
-      std::function<void(const Problem& part, const Linearisation& l, const std::vector<double>& factor)>;
+  using VisitSome = std::function<void(const Problem& part, const Linearisation& l, const std::vector<double>& factor)>;
   void visit_drawn(const VisitSome& visit) const;
 
   [[nodiscard]] const Problem& problem() const noexcept { return problem_; }

@@ -8,19 +8,29 @@ namespace goniofit {
 
 namespace {
 
-// What the factors read of a pair.
-Pair cosines_of(const PairBatch& pairs, std::size_t i) {
-  Pair p{};
-  p.cos_i = pairs.cos_i[i];
-  p.cos_r = pairs.cos_r[i];
-  p.one_minus_cos_i = pairs.one_minus_cos_i[i];
-  p.one_minus_cos_r = pairs.one_minus_cos_r[i];
-  p.cos_h = pairs.cos_h[i];
-  p.one_minus_cos_h = pairs.one_minus_cos_h[i];
-  return p;
+// out[i] = weight[i] * factor; `point` maps a row to the pair. Schlick's by loops that the compiler vectorises.
+template <class Point>
+void fill(OpticsFactor factor, FresnelTier tier, const ChannelOptics& o, const PairBatch& pairs, const Point& point,
+          const Eigen::VectorXd& weight, double* out) {
+  const auto n = static_cast<std::size_t>(weight.size());
+  const double* const w = weight.data();
+  const bool schlick = tier == FresnelTier::schlick;
+  if (factor == OpticsFactor::one || tier == FresnelTier::none) {
+    std::copy_n(w, n, out);
+  } else if (schlick && factor == OpticsFactor::fresnel) {
+    const double* const from = pairs.one_minus_cos_h.data();
+    for (std::size_t i = 0; i < n; ++i) out[i] = w[i] * fresnel_schlick(o.f0, from[point(i)]);
+  } else if (schlick && factor == OpticsFactor::transmission) {
+    const double* const lit = pairs.cos_i.data();
+    const double* const seen = pairs.cos_r.data();
+    for (std::size_t i = 0; i < n; ++i) {
+      out[i] = w[i] * (transmission_schlick(o.t0, lit[point(i)]) * transmission_schlick(o.t0, seen[point(i)]));
+    }
+  } else {
+    for (std::size_t i = 0; i < n; ++i) out[i] = w[i] * optics_factor(factor, tier, o, pairs[point(i)]);
+  }
 }
 
-// `point` maps a row to the pair.
 template <class Point>
 Eigen::MatrixXd columns_at(const Problem& problem, const ChannelOptics& optics, const Eigen::VectorXd& weight,
                            const Point& point) {
@@ -33,13 +43,8 @@ Eigen::MatrixXd columns_at(const Problem& problem, const ChannelOptics& optics, 
                                    [factor](const BasisColumn& other) { return other.optics == factor; });
     if (twin != columns.begin() + column) {
       out.col(column) = out.col(twin - columns.begin());
-    } else if (factor == OpticsFactor::one) {
-      out.col(column) = weight;
     } else {
-      for (Eigen::Index i = 0; i < weight.size(); ++i) {
-        const Pair p = cosines_of(problem.pairs, point(static_cast<std::size_t>(i)));
-        out(i, column) = weight[i] * optics_factor(factor, problem.terms.fresnel, optics, p);
-      }
+      fill(factor, problem.terms.fresnel, optics, problem.pairs, point, weight, out.col(column).data());
     }
   }
   return out;
@@ -47,8 +52,8 @@ Eigen::MatrixXd columns_at(const Problem& problem, const ChannelOptics& optics, 
 
 }  // namespace
 
-Eigen::MatrixXd optics_columns(const Problem& problem, const ChannelOptics& optics,
-                               std::span<const std::size_t> points, const Eigen::VectorXd& weight) {
+Eigen::MatrixXd optics_columns(const Problem& problem, const ChannelOptics& optics, std::span<const std::size_t> points,
+                               const Eigen::VectorXd& weight) {
   return columns_at(problem, optics, weight, [points](std::size_t row) { return points[row]; });
 }
 

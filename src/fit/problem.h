@@ -57,9 +57,9 @@ struct ShapeMap {
 struct ChannelTerms {
   std::string name{};
   std::optional<double> wavelength_um{};
-  ChannelOptics optics{};            ///< where fixed; the start where free
-  std::optional<double> n{}, kappa{};  ///< as given; empty where f0 was
-  SmallVector lower{}, upper{};      ///< bounds of the coefficients; equal where fixed
+  ChannelOptics optics{};                         ///< where fixed; the start where free
+  std::optional<double> n{}, kappa{};             ///< as given; empty where f0 was
+  SmallVector lower{}, upper{};                   ///< bounds of the coefficients; equal where fixed
   double optics_lower = 0.0, optics_upper = 0.0;  ///< of the free optical parameter
   std::size_t optics_group = 0;                   ///< channels of equal optics share their columns
 };

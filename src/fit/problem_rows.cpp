@@ -12,6 +12,7 @@
 #include "fit/problem.h"
 #include "geometry/angles.h"
 #include "geometry/direction.h"
+#include "geometry/lane_angles.h"
 #include "geometry/solid_angles.h"
 #include "scan/clipping.h"
 #include "support/error.h"
@@ -190,11 +191,10 @@ void Problem::add_reflectances(const FitSettings& settings) {
 
 void Problem::choose_weights(const Scan& scan) {
   weight.resize(static_cast<Eigen::Index>(samples()));
-  Eigen::Index row = 0;
-  for_each_pairs([&](const PairBatch& run) {
-    for (std::size_t i = 0; i < run.size() && row < static_cast<Eigen::Index>(readings()); ++i)
-      weight[row++] = has_cosine(weighting) ? std::sqrt(run.cos_i[i]) : 1.0;
-  });
+  const auto row = static_cast<Eigen::Index>(readings());
+  weight.head(row).setOnes();
+  for (Eigen::Index i = 0; has_cosine(weighting) && i < row; ++i)
+    weight[i] = std::sqrt(sine_cosine_deg(Lane<double>{theta_i_deg[static_cast<std::size_t>(i)]}).cosine.v);
   if (has_solid_angle(weighting)) {
     const Eigen::VectorXd even = evening_weights(scan, rows).cwiseSqrt();
     weight.head(row) = weight.head(row).cwiseProduct(even);

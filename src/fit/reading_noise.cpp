@@ -162,8 +162,8 @@ ResidualNoise residual_noise(const Problem& problem, const Linearisation& l,
   std::vector<Sample> samples;
   std::vector<Eigen::VectorXd> variance;
   for (std::size_t c = 0; c < residuals.size(); ++c) {
-    Sample& s = samples.emplace_back(
-        sample_of(residual_by_value(problem, l, c), problem.channels[c].value, residuals[c]));
+    Sample& s =
+        samples.emplace_back(sample_of(residual_by_value(problem, l, c), problem.channels[c].value, residuals[c]));
     s.own_leverage = (s.first > 0.0).select(j.leverages(c).array(), 0.0);
     s.square.resize(s.first.size());
     variance.emplace_back(residuals[c].cwiseAbs2());

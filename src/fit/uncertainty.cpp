@@ -136,14 +136,14 @@ Spread without_reweighting(Spread spread, double kernel_share) {
 }
 
 Spread spread_of_readings(const Linear& linear) {
-  return spread_by_meat(linear.j, linear.meat([](const Rows& rows, std::size_t c) {
-    return reading_sd(rows.problem, rows.l, c);
-  }));
+  return spread_by_meat(
+      linear.j, linear.meat([](const Rows& rows, std::size_t c) { return reading_sd(rows.problem, rows.l, c); }));
 }
 
 Spread spread_of_angles(const Linear& linear) {
   Spread out;
-  linear.for_each([&](const Rows& rows) { out = spread_by_angles(rows.j, rows.residuals, angle_groups(rows.problem)); });
+  linear.for_each(
+      [&](const Rows& rows) { out = spread_by_angles(rows.j, rows.residuals, angle_groups(rows.problem)); });
   return out;
 }
 

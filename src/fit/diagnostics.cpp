@@ -95,6 +95,7 @@ class Diagnosis {
   void add_runs();
   [[nodiscard]] std::vector<std::int8_t> residual_signs() const;
   void add_noise(std::size_t c);
+  void keep_worst();
   void add_counts(std::size_t c);
   void add_regions();
   void add_brightness();
@@ -292,7 +293,15 @@ void Diagnosis::add_noise(std::size_t c) {
     const double sds = quotient(size, noise.sd(fitted(i, c)));
     ++out_.outlier_count;
     out_.outliers.push_back({rows_[i], c, value(i, c), fitted(i, c), sds});
+    if (out_.outliers.size() == 100 * most_outliers) keep_worst();
   }
+}
+
+// Of equal ones the first.
+void Diagnosis::keep_worst() {
+  std::stable_sort(out_.outliers.begin(), out_.outliers.end(),
+                   [](const Outlier& a, const Outlier& b) { return a.sds > b.sds; });
+  out_.outliers.resize(std::min(out_.outliers.size(), most_outliers));
 }
 
 // Values that a detector or a program has cut off are alike to the last digit, which measured ones seldom are. Where
@@ -378,6 +387,8 @@ FitDiagnostics Diagnosis::result() {
   for (std::size_t k = 0; k < region_count; ++k) parts_[k].reserve(out_.regions[k].readings * scan_.channels.size());
   for (std::size_t c = 0; c < scan_.channels.size(); ++c) add_channel(c);
   add_runs();
+  lines_ = {};
+  options_.values->open.clear();
   add_regions();
   add_brightness();
   add_chi_square();
@@ -386,9 +397,7 @@ FitDiagnostics Diagnosis::result() {
     const double p = channel.runs.p() * static_cast<double>(out_.channels.size());
     if (channel.runs.testable()) out_.p_runs = std::min(out_.p_runs, p);
   }
-  std::stable_sort(out_.outliers.begin(), out_.outliers.end(),
-                   [](const Outlier& a, const Outlier& b) { return a.sds > b.sds; });
-  out_.outliers.resize(std::min(out_.outliers.size(), most_outliers));
+  keep_worst();
   judge(scan_, material_, out_);
   return std::move(out_);
 }

@@ -170,7 +170,7 @@ class Problem : public ProblemTerms {
   RowSums sums;
   Eigen::VectorXd weight;           ///< square root of each residual's weight in the loss
   Eigen::VectorXd point_weight;     ///< the same by point; a node's includes its part of the sum, over pi
-  std::vector<double> theta_i_deg;  ///< one a residual
+  std::vector<double> theta_i_deg;  ///< one a residual; of a problem by parts only the parts have them
   std::vector<ProblemChannel> channels;
   RowSelection drawn;  ///< of a problem by parts: readings that stand for all of them
 

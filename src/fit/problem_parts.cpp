@@ -46,7 +46,7 @@ Problem Problem::part(const std::vector<std::size_t>& of_readings) const {
   for (const std::size_t i : of_readings) {
     angles.push_back(angles_[i]);
     out.rows.push_back(rows[i]);
-    out.theta_i_deg.push_back(theta_i_deg[i]);
+    out.theta_i_deg.push_back(angles_[i].theta_i_deg);
   }
   out.pairs = PairBatch(angles);
   out.sums = RowSums(of_readings.size());

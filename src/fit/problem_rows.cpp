@@ -151,6 +151,7 @@ void Problem::choose_rows(const Scan& scan, const FitSettings& settings, bool ma
   }
   if (may_part && rows.size() > most_held) {
     angles_ = std::move(angles);
+    theta_i_deg = {};
   } else {
     pairs = PairBatch(angles);
   }
@@ -193,8 +194,10 @@ void Problem::choose_weights(const Scan& scan) {
   weight.resize(static_cast<Eigen::Index>(samples()));
   const auto row = static_cast<Eigen::Index>(readings());
   weight.head(row).setOnes();
-  for (Eigen::Index i = 0; has_cosine(weighting) && i < row; ++i)
-    weight[i] = std::sqrt(sine_cosine_deg(Lane<double>{theta_i_deg[static_cast<std::size_t>(i)]}).cosine.v);
+  for (std::size_t i = 0; has_cosine(weighting) && i < readings(); ++i) {
+    const double theta = by_parts() ? angles_[i].theta_i_deg : theta_i_deg[i];
+    weight[static_cast<Eigen::Index>(i)] = std::sqrt(sine_cosine_deg(Lane<double>{theta}).cosine.v);
+  }
   if (has_solid_angle(weighting)) {
     const Eigen::VectorXd even = evening_weights(scan, rows).cwiseSqrt();
     weight.head(row) = weight.head(row).cwiseProduct(even);

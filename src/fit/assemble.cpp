@@ -49,13 +49,14 @@ class Assembly {
         scan_(scan),
         best_(best),
         evidence_(evidence),
-        l_(evidence.l),
-        u_(uncertainties(problem, best.point, l_)) {}
+        sums_(evidence.sums),
+        u_(uncertainties(LinearParts(problem, best.point, evidence.l), sums_)) {}
   [[nodiscard]] FitResult result();
 
  private:
   void add_totals();
   void add_published_loss();
+  void add_reflectances();
   void add_shape();
   void add_channel(std::size_t c);
   void add_coefficient(std::size_t c, std::size_t coefficient);
@@ -69,7 +70,7 @@ class Assembly {
   const Scan& scan_;
   const Polished& best_;
   const FitEvidence& evidence_;
-  const Linearisation& l_;
+  const LinearSums& sums_;
   Uncertainties u_;
   FitResult out_;
   FitSummary summary_;
@@ -102,12 +103,13 @@ void Assembly::add_totals() {
   out_.samples = problem_.readings();
   out_.reflectances = problem_.samples() - problem_.readings();
   out_.left_out = problem_.exclusions;
-  out_.objective = {.loss = problem_.loss, .value = l_.loss};
+  out_.objective = {.loss = problem_.loss, .value = sums_.loss};
   if (problem_.robust) {
     out_.objective.robust = problem_.robust->kernel();
     out_.objective.robust_scale = problem_.robust->scale();
   }
   add_published_loss();
+  add_reflectances();
   out_.converged = best_.converged;
   out_.uncertainty_from = u_.source;
   out_.scale_u = problem_.scale_u;
@@ -122,30 +124,25 @@ void Assembly::add_totals() {
 
 // Whatever was made least: the loss of the 2005 report, of the readings used.
 void Assembly::add_published_loss() {
-  const std::vector<Eigen::VectorXd>& all = l_.deviations;
   double values = 0.0;
-  for (std::size_t c = 0; c < all.size(); ++c) {
-    const Eigen::VectorXd& used = problem_.channels[c].used;
-    double own = 0.0;
-    double squares = 0.0;
-    for (std::size_t i = 0; i < problem_.readings(); ++i) {
-      const auto at = static_cast<Eigen::Index>(i);
-      if (used.size() > 0 && used[at] == 0.0) continue;
-      own += 1.0;
-      squares += all[c][at] * all[c][at];
-      out_.loss += problem_.pairs.cos_i[i] * all[c][at] * all[c][at];
-    }
-    for (std::size_t i = problem_.readings(); i < problem_.samples(); ++i) {
-      const auto at = static_cast<Eigen::Index>(i);
-      if (used.size() > 0 && used[at] == 0.0) continue;
-      const double value = problem_.channels[c].value[at];
-      out_.fitted_reflectances.push_back(
-          {problem_.theta_i_deg[i], problem_.channels[c].name, pi * value, pi * (value + all[c][at])});
-    }
-    values += own;
-    out_.channel_rms.push_back(std::sqrt(squares / own));
+  for (const LinearSums::Differences& own : sums_.differences) {
+    values += own.values;
+    out_.loss += own.cosine_squares;
+    out_.channel_rms.push_back(std::sqrt(own.squares / own.values));
   }
   out_.rms = std::sqrt(out_.loss / values);
+}
+
+void Assembly::add_reflectances() {
+  for (std::size_t c = 0; c < problem_.channels.size(); ++c) {
+    const ProblemChannel& channel = problem_.channels[c];
+    for (std::size_t i = problem_.readings(); i < problem_.samples(); ++i) {
+      const auto at = static_cast<Eigen::Index>(i);
+      if (channel.used.size() > 0 && channel.used[at] == 0.0) continue;
+      const double fitted = channel.value[at] + evidence_.l.deviations[c][at];
+      out_.fitted_reflectances.push_back({problem_.theta_i_deg[i], channel.name, pi * channel.value[at], pi * fitted});
+    }
+  }
 }
 
 void Assembly::record(const FittedParameter& p, bool identifiable) {
@@ -271,8 +268,9 @@ void Assembly::add_coefficient(std::size_t c, std::size_t coefficient) {
   // to the scan is less than the residual of one reading, it is not determined; else it is so only apart from its
   // companions.
   const bool says_nothing = p.value && p.u && *p.u > std::max(1.0, *p.value);
-  const double noise2 = l_.loss / static_cast<double>(problem_.values_used());
-  const bool unseen = says_nothing && *p.value * *p.value * l_.by_coefficient[c].col(j).squaredNorm() < noise2;
+  const double noise2 = sums_.loss / static_cast<double>(problem_.values_used());
+  const double column2 = sums_.triangles[c].col(problem_.shape.free + j).squaredNorm();
+  const bool unseen = says_nothing && *p.value * *p.value * column2 < noise2;
   if (unseen) undetermine(p);
   if (says_nothing) p.flags.push_back(ParameterFlag::degenerate);
   if (evidence_.no_lobes && lobe) p.flags.push_back(ParameterFlag::insignificant);

@@ -65,53 +65,54 @@ Region region_of(const Scan& scan, std::size_t row, const Pair& pair) {
   return scan.theta_r_deg[row] > grazing_deg && pair.forward ? Region::forward_grazing : Region::elsewhere;
 }
 
+std::vector<AnglePair> angles_of(const Scan& scan, std::span<const std::size_t> rows) {
+  std::vector<AnglePair> out;
+  out.reserve(rows.size());
+  for (const std::size_t row : rows) out.push_back(scan.angles(row));
+  return out;
+}
+
 class Diagnosis {
  public:
   Diagnosis(const Scan& scan, const Material& material, DiagnosticsOptions options)
       : scan_(scan), material_(material), options_(std::move(options)) {
     choose_rows();
-    if (!options_.values) {
-      const Evaluator evaluator(material);
-      std::vector<double> fitted = evaluator.values(own_pairs_);
-      std::vector<double> open = value_uncertainties(material, own_pairs_, fitted);
-      options_.values = FittedValues{&own_pairs_, std::move(fitted), std::move(open)};
+    if (!options_.values) evaluate();
+    for (std::vector<double>& channel : options_.values->open) {
+      for (double& u : channel) u *= open_sds;
     }
-    for (double& u : options_.values->open) u *= open_sds;
     place_readings();
-    lines_ = detector_lines(scan);
-    signed_theta_r_.reserve(scan.size());
-    for (std::size_t row = 0; row < scan.size(); ++row)
-      signed_theta_r_.push_back(delta_phi_deg(scan, row) > 0.0 ? scan.theta_r_deg[row] : -scan.theta_r_deg[row]);
-    pairs_of_rows_ = swapped_rows(scan);
   }
   [[nodiscard]] FitDiagnostics result();
 
  private:
   void choose_rows();
+  void evaluate();
   void place_readings();
+  void place(std::size_t reading, const Pair& pair);
   void add_channel(std::size_t c);
   void add_misfit(std::size_t c);
   void add_runs();
   [[nodiscard]] std::vector<std::int8_t> residual_signs() const;
   void add_noise(std::size_t c);
+  void keep_worst();
   void add_counts(std::size_t c);
   void add_regions();
   void add_brightness();
   void add_chi_square();
-  [[nodiscard]] const PairBatch& pairs() const noexcept { return *options_.values->pairs; }
   [[nodiscard]] double noise_floor(std::size_t c);
-  [[nodiscard]] std::optional<double> reciprocity(std::size_t c) const;
+  void add_reciprocity();
+  // By row of the scan.
+  [[nodiscard]] double signed_theta_r(std::size_t row) const {
+    return delta_phi_deg(scan_, row) > 0.0 ? scan_.theta_r_deg[row] : -scan_.theta_r_deg[row];
+  }
   [[nodiscard]] double value(std::size_t i, std::size_t c) const { return scan_.channels[c].values[rows_[i]]; }
   [[nodiscard]] bool counts(std::size_t i, std::size_t c) const {
     return !options_.used || options_.used->left_out.empty() || options_.used->left_out[c].empty() ||
            !options_.used->left_out[c][i];
   }
-  [[nodiscard]] double fitted(std::size_t i, std::size_t c) const {
-    return options_.values->fitted[i * scan_.channels.size() + c];
-  }
-  [[nodiscard]] double open(std::size_t i, std::size_t c) const {
-    return options_.values->open[i * scan_.channels.size() + c];
-  }
+  [[nodiscard]] double fitted(std::size_t i, std::size_t c) const { return options_.values->fitted[c][i]; }
+  [[nodiscard]] double open(std::size_t i, std::size_t c) const { return options_.values->open[c][i]; }
   [[nodiscard]] double floor(std::size_t i, std::size_t c) const {
     const ScanChannel& channel = scan_.channels[c];
     return channel.u.empty() ? out_.channels[c].noise_floor : floor_sds * channel.u[rows_[i]];
@@ -124,9 +125,8 @@ class Diagnosis {
   PairBatch own_pairs_;  // where the options have none
   std::vector<double> weight_;
   std::vector<Region> region_;
-  std::vector<double> signed_theta_r_;  // by row of the scan
+  std::vector<bool> mirror_cone_;
   RowGroups lines_;
-  SwappedRows pairs_of_rows_;
   std::array<Sums, region_count> by_region_;
   std::array<std::vector<double>, region_count> parts_;  // of every channel: see Sums::misfit
   // What a step of a channel gathers. Of millions of readings fresh memory takes longer than what is done with it.
@@ -140,20 +140,38 @@ void Diagnosis::choose_rows() {
     if (std::max(scan_.theta_i_deg[row], scan_.theta_r_deg[row]) < 90.0) rows.push_back(row);
   }
   rows_ = options_.used ? std::move(options_.used->rows) : std::move(rows);
-  if (options_.values) return;
-  std::vector<AnglePair> angles;
-  angles.reserve(rows_.size());
-  for (const std::size_t row : rows_) angles.push_back(scan_.angles(row));
-  own_pairs_ = PairBatch(angles);
+  if (!options_.values) own_pairs_ = PairBatch(angles_of(scan_, rows_));
+}
+
+void Diagnosis::evaluate() {
+  const std::size_t channels = scan_.channels.size();
+  const auto by_channel = [&](const std::vector<double>& values) {
+    std::vector<std::vector<double>> out(channels);
+    for (std::size_t i = 0; i < values.size(); ++i) out[i % channels].push_back(values[i]);
+    return out;
+  };
+  const std::vector<double> fitted = Evaluator(material_).values(own_pairs_);
+  const std::vector<double> open = value_uncertainties(material_, own_pairs_, fitted);
+  options_.values = FittedValues{&own_pairs_, by_channel(fitted), by_channel(open)};
+}
+
+void Diagnosis::place(std::size_t reading, const Pair& pair) {
+  weight_.push_back(has_cosine(options_.weight) ? pair.cos_i : 1.0);
+  region_.push_back(region_of(scan_, rows_[reading], pair));
+  mirror_cone_.push_back(pair.mirror_distance2 <= material_.solid_angle_sr / pi);
 }
 
 void Diagnosis::place_readings() {
   weight_.reserve(rows_.size());
   region_.reserve(rows_.size());
-  for (std::size_t i = 0; i < rows_.size(); ++i) {
-    const Pair pair = pairs()[i];
-    weight_.push_back(has_cosine(options_.weight) ? pair.cos_i : 1.0);
-    region_.push_back(region_of(scan_, rows_[i], pair));
+  mirror_cone_.reserve(rows_.size());
+  const PairBatch* const pairs = options_.values->pairs;
+  for (std::size_t i = 0; pairs != nullptr && i < rows_.size(); ++i) place(i, (*pairs)[i]);
+  constexpr std::size_t at_once = 1024;
+  for (std::size_t first = 0; pairs == nullptr && first < rows_.size(); first += at_once) {
+    const std::span<const std::size_t> some = std::span(rows_).subspan(first, std::min(at_once, rows_.size() - first));
+    const PairBatch run(angles_of(scan_, some));
+    for (std::size_t i = 0; i < run.size(); ++i) place(first + i, run[i]);
   }
 }
 
@@ -172,7 +190,7 @@ double Diagnosis::noise_floor(std::size_t c) {
   for (std::size_t l = 0; l < lines_.size(); ++l) {
     const std::span<const std::size_t> line = lines_[l];
     for (std::size_t j = 1; j + 1 < line.size(); ++j) {
-      const auto at = [&](std::size_t k) { return signed_theta_r_[line[k]]; };
+      const auto at = [&](std::size_t k) { return signed_theta_r(line[k]); };
       if (std::fabs(values[line[j]]) > dark || !(at(j + 1) > at(j - 1))) continue;
       const double t = (at(j) - at(j - 1)) / (at(j + 1) - at(j - 1));
       const double off = values[line[j]] - (1.0 - t) * values[line[j - 1]] - t * values[line[j + 1]];
@@ -184,11 +202,14 @@ double Diagnosis::noise_floor(std::size_t c) {
   return std::min(floor_sds * 1.4826 * median_of(differences), dark);
 }
 
-std::optional<double> Diagnosis::reciprocity(std::size_t c) const {
-  std::vector<double> ratios = swapped_ratios(scan_.channels[c].values, pairs_of_rows_);
-  if (ratios.empty()) return std::nullopt;
-  for (double& ratio : ratios) ratio = std::fabs(std::log(ratio));
-  return median_of(ratios);
+void Diagnosis::add_reciprocity() {
+  const SwappedRows pairs = swapped_rows(scan_);
+  for (std::size_t c = 0; c < scan_.channels.size(); ++c) {
+    std::vector<double> ratios = swapped_ratios(scan_.channels[c].values, pairs);
+    if (ratios.empty()) continue;
+    for (double& ratio : ratios) ratio = std::fabs(std::log(ratio));
+    out_.channels[c].reciprocity = median_of(ratios);
+  }
 }
 
 void Diagnosis::add_misfit(std::size_t c) {
@@ -219,7 +240,7 @@ std::vector<std::int8_t> Diagnosis::residual_signs() const {
   const std::size_t channels = out_.channels.size();
   std::vector<std::int8_t> signs(scan_.size() * channels, 0);
   for (std::size_t i = 0; i < rows_.size(); ++i) {
-    if (pairs().mirror_distance2[i] <= material_.solid_angle_sr / pi) continue;
+    if (mirror_cone_[i]) continue;
     for (std::size_t c = 0; c < channels; ++c) {
       const double residual = value(i, c) - fitted(i, c);
       const bool open_to_it = !counts(i, c) || !(std::fabs(residual) > open(i, c));
@@ -246,12 +267,14 @@ void Diagnosis::add_runs() {
 }
 
 void Diagnosis::add_noise(std::size_t c) {
+  // Of very many readings some thousands of each size tell as much.
+  constexpr std::size_t most = 100000;
+  const std::size_t step = (rows_.size() + most - 1) / most;
   std::vector<double>& model = gathered_;
   std::vector<double>& residuals = gathered_residuals_;
   model.clear();
   residuals.clear();
-  residuals.reserve(rows_.size());
-  for (std::size_t i = 0; i < rows_.size(); ++i) {
+  for (std::size_t i = 0; i < rows_.size(); i += step) {
     if (!counts(i, c)) continue;
     model.push_back(fitted(i, c));
     residuals.push_back(value(i, c) - fitted(i, c));
@@ -270,7 +293,15 @@ void Diagnosis::add_noise(std::size_t c) {
     const double sds = quotient(size, noise.sd(fitted(i, c)));
     ++out_.outlier_count;
     out_.outliers.push_back({rows_[i], c, value(i, c), fitted(i, c), sds});
+    if (out_.outliers.size() == 100 * most_outliers) keep_worst();
   }
+}
+
+// Of equal ones the first.
+void Diagnosis::keep_worst() {
+  std::stable_sort(out_.outliers.begin(), out_.outliers.end(),
+                   [](const Outlier& a, const Outlier& b) { return a.sds > b.sds; });
+  out_.outliers.resize(std::min(out_.outliers.size(), most_outliers));
 }
 
 // Values that a detector or a program has cut off are alike to the last digit, which measured ones seldom are. Where
@@ -287,7 +318,6 @@ void Diagnosis::add_counts(std::size_t c) {
 void Diagnosis::add_channel(std::size_t c) {
   ChannelDiagnostics& channel = out_.channels[c];
   channel.noise_floor = noise_floor(c);
-  channel.reciprocity = reciprocity(c);
   add_misfit(c);
   add_noise(c);
   add_counts(c);
@@ -296,7 +326,10 @@ void Diagnosis::add_channel(std::size_t c) {
 void Diagnosis::add_regions() {
   Sums all;
   for (const Sums& sums : by_region_) all.add(sums);
+  std::size_t count = 0;
+  for (const std::vector<double>& parts : parts_) count += parts.size();
   std::vector<double> all_parts;
+  all_parts.reserve(count);
   for (std::size_t k = 0; k < region_count; ++k) {
     const Sums& sums = by_region_[k];
     RegionMisfit& to = out_.regions[k];
@@ -311,21 +344,24 @@ void Diagnosis::add_regions() {
 }
 
 void Diagnosis::add_brightness() {
-  std::vector<double> squares;
-  std::vector<double> positive;
-  squares.reserve(rows_.size() * scan_.channels.size());
-  positive.reserve(rows_.size() * scan_.channels.size());
-  for (std::size_t i = 0; i < rows_.size(); ++i) {
-    for (std::size_t c = 0; c < scan_.channels.size(); ++c) {
-      if (!counts(i, c)) continue;
-      squares.push_back(weight_[i] * value(i, c) * value(i, c));
-      if (value(i, c) > 0.0) positive.push_back(value(i, c));
+  std::vector<double> some;
+  some.reserve(rows_.size() * scan_.channels.size());
+  const auto gather = [&](const auto& of_reading) {
+    some.clear();
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      for (std::size_t c = 0; c < scan_.channels.size(); ++c) {
+        if (counts(i, c)) of_reading(weight_[i], value(i, c));
+      }
     }
-  }
-  out_.readings = squares.size();
-  out_.brightest = count_of_largest(squares, 0.9);
-  if (positive.empty()) return;
-  out_.brightness_range = *std::max_element(positive.begin(), positive.end()) / median_of(positive);
+  };
+  gather([&](double weight, double value) { some.push_back(weight * value * value); });
+  out_.readings = some.size();
+  out_.brightest = count_of_largest(some, 0.9);
+  gather([&](double, double value) {
+    if (value > 0.0) some.push_back(value);
+  });
+  if (some.empty()) return;
+  out_.brightness_range = *std::max_element(some.begin(), some.end()) / median_of(some);
 }
 
 void Diagnosis::add_chi_square() {
@@ -344,10 +380,15 @@ void Diagnosis::add_chi_square() {
 
 FitDiagnostics Diagnosis::result() {
   out_.channels.resize(scan_.channels.size());
+  gathered_.reserve(rows_.size());
+  add_reciprocity();
+  lines_ = detector_lines(scan_);
   for (const Region region : region_) ++out_.regions[static_cast<std::size_t>(region)].readings;
   for (std::size_t k = 0; k < region_count; ++k) parts_[k].reserve(out_.regions[k].readings * scan_.channels.size());
   for (std::size_t c = 0; c < scan_.channels.size(); ++c) add_channel(c);
   add_runs();
+  lines_ = {};
+  options_.values->open.clear();
   add_regions();
   add_brightness();
   add_chi_square();
@@ -356,9 +397,7 @@ FitDiagnostics Diagnosis::result() {
     const double p = channel.runs.p() * static_cast<double>(out_.channels.size());
     if (channel.runs.testable()) out_.p_runs = std::min(out_.p_runs, p);
   }
-  std::stable_sort(out_.outliers.begin(), out_.outliers.end(),
-                   [](const Outlier& a, const Outlier& b) { return a.sds > b.sds; });
-  out_.outliers.resize(std::min(out_.outliers.size(), most_outliers));
+  keep_worst();
   judge(scan_, material_, out_);
   return std::move(out_);
 }

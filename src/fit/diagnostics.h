@@ -47,7 +47,7 @@ struct Misfit {
 struct ChannelDiagnostics {
   Misfit misfit;
   RunsTest runs;    ///< readings in the mirror cone excluded: theirs is coh's, and the instrument's; others as above
-  Noise residuals;  ///< their robust spread; misfit included
+  Noise residuals;  ///< their robust spread, of very many of some 100000 evenly along the scan; misfit included
   double noise_floor = 0.0;  ///< 1/sr: thrice the additive noise of the scan itself; 0 where it cannot be told
   Clipping clipping;
   /// Median of |ln(f(i,r) / f(r,i))|; none without swapped pairs. A reciprocal model misses one of a pair by at least
@@ -99,9 +99,9 @@ struct UsedReadings {
 
 /// What a fit knows of the readings that it used, in their order.
 struct FittedValues {
-  const PairBatch* pairs = nullptr;  ///< those of the readings come first
-  std::vector<double> fitted{};      ///< [reading * channels + channel], 1/sr
-  std::vector<double> open{};        ///< what the parameters' standard uncertainties change these by
+  const PairBatch* pairs = nullptr;           ///< those of the readings come first; null where nobody holds them
+  std::vector<std::vector<double>> fitted{};  ///< [channel][reading], 1/sr
+  std::vector<std::vector<double>> open{};    ///< what the parameters' standard uncertainties change these by
 };
 
 struct DiagnosticsOptions {

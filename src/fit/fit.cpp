@@ -32,8 +32,10 @@ struct Fitted {
 };
 
 void look_at(const Problem& problem, Model& model, const FitPoint& point, FitEvidence& e) {
-  e.l = linearise(problem, model, point);
-  e.noise = reading_noise(problem, e.l);
+  if (!problem.by_parts()) e.l = linearise(problem, model, point);
+  const LinearParts parts(problem, point, e.l);
+  e.noise = noise_model(parts);
+  e.sums = linear_sums(parts, &e.noise);
 }
 
 // The k_fs of a channel; none where the model has none, or the settings demand one.
@@ -79,18 +81,18 @@ Solved solve_sensibly(Problem& problem, Model& model, const FitSettings& setting
   Solved solved = solve(problem, model, settings);
   Polished& best = solved.best;
   look_at(problem, model, best.point, evidence);
-  const LobeTest lobes = test_lobes(problem, best.point, evidence.l, evidence.noise);
+  const LobeTest lobes = test_lobes(problem, best.point, evidence.sums);
   if (!lobes.significant) {
     best = without_lobes(problem, model, best);
     look_at(problem, model, best.point, evidence);
     evidence.no_lobes = lobes;
   }
   evidence.opaque = opaque;
-  evidence.identifiability = identify(problem, best.point, evidence.l, evidence.noise);
+  evidence.identifiability = identify(problem, best.point, evidence.sums);
   leave_out_unseen_fs(problem, model, best, evidence);
   if (!evidence.no_fs.empty()) {
     look_at(problem, model, best.point, evidence);
-    evidence.identifiability = identify(problem, best.point, evidence.l, evidence.noise);
+    evidence.identifiability = identify(problem, best.point, evidence.sums);
   }
   return solved;
 }
@@ -112,13 +114,14 @@ Fitted without_coherence(const Scan& scan, FitSettings settings, double p) {
 }
 
 Fitted fit_as_asked(const Scan& scan, const FitSettings& settings) {
-  auto problem = std::make_unique<Problem>(scan, settings);
+  auto problem = std::make_unique<Problem>(scan, settings, Problem::Hold::parts);
   if (settings.profile) check_profile_names(*problem, *settings.profile);
   FitEvidence evidence;
   auto model = std::make_unique<Model>(*problem);
   const Solved solved = solve_sensibly(*problem, *model, settings, evidence);
   FitResult result = assemble(*problem, scan, solved.best, evidence);
-  const double p = noise_makes_coherence(*problem, result.material, evidence.l, evidence.noise);
+  const double p = noise_makes_coherence(LinearParts(*problem, solved.best.point, evidence.l), evidence.noise,
+                                         evidence.sums.loss, result.material);
   if (p >= lobe_level) return without_coherence(scan, settings, p);
   result.search_evaluations = solved.evaluations;
   result.polish_starts = solved.starts;
@@ -196,11 +199,12 @@ bool has_values(const Material& m) {
   return std::all_of(m.parameters.begin(), m.parameters.end(), [](const auto& p) { return p.second.has_value(); });
 }
 
-UsedReadings used_readings(const Problem& problem) {
-  UsedReadings used{problem.rows, {}};
+// Takes the problem's rows.
+UsedReadings used_readings(Problem& problem) {
+  UsedReadings used{std::move(problem.rows), {}};
   for (const ProblemChannel& c : problem.channels) {
     std::vector<bool>& out = used.left_out.emplace_back();
-    for (std::size_t i = 0; c.used.size() > 0 && i < problem.readings(); ++i) {
+    for (std::size_t i = 0; c.used.size() > 0 && i < used.rows.size(); ++i) {
       out.push_back(c.used[static_cast<Eigen::Index>(i)] == 0.0);
     }
   }
@@ -261,12 +265,12 @@ FitResult fit(const Scan& scan, const FitSettings& settings) {
     result.selection = std::move(selection);
   }
   if (has_values(result.material)) {
-    result.diagnostics =
-        diagnose(scan, result.material,
-                 {.weight = result.weight,
-                  .used = used_readings(*fitted.problem),
-                  .free_parameters = free_parameters(result),
-                  .values = fitted_values(*fitted.problem, *fitted.model, fitted.point, result.material)});
+    DiagnosticsOptions options{.weight = result.weight,
+                               .free_parameters = free_parameters(result),
+                               .values = fitted_values(*fitted.problem, *fitted.model, fitted.point, result.material)};
+    options.used = used_readings(*fitted.problem);
+    if (!options.values || options.values->pairs == nullptr) fitted.problem.reset();  // its memory is wanted
+    result.diagnostics = diagnose(scan, result.material, std::move(options));
   }
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;

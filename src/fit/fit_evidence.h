@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "identifiability.h"
+#include "linear_parts.h"
 #include "lobe_significance.h"
 #include "model.h"
 #include "whitening.h"
@@ -13,8 +14,9 @@
 namespace goniofit {
 
 struct FitEvidence {
-  Linearisation l{};
-  ReadingNoise noise{};
+  Linearisation l{};  ///< empty of a problem by parts
+  NoiseModel noise{};
+  LinearSums sums{};
   Identifiability identifiability{};
   std::optional<LobeTest> no_lobes{};  ///< why the lobes were left out; none where they were not
   std::vector<std::size_t> no_fs{};    ///< channels whose k_fs nothing shows: left out there

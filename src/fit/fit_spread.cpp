@@ -6,6 +6,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 
 #include "brdf/evaluator.h"
 #include "support/error.h"
@@ -123,13 +124,52 @@ class ColumnValues {
   Eigen::VectorXd shape_, values_;
 };
 
-// Adds the squares of what the values of a channel are elsewhere.
-void add_squares(const Eigen::VectorXd& there, const FittedValues& at, std::size_t channel, std::size_t channels,
-                 std::vector<double>& variance) {
-  std::size_t i = channel;
-  for (std::size_t row = 0; i < variance.size(); ++row, i += channels) {
-    const double change = there[static_cast<Eigen::Index>(row)] - at.fitted[i];
-    variance[i] += change * change;
+// Where a material is moved to, one parameter after the other by its standard uncertainty.
+struct Moves {
+  std::vector<Material> channels;  // a coefficient, or the optics, of every channel
+  std::vector<std::pair<std::string, double>> shared;
+};
+
+Moves moves_of(const Material& material) {
+  Moves out;
+  for (const std::string& name : channel_names(material)) {
+    Material moved = moved_channels(material, name);
+    if (is_valid(moved)) out.channels.push_back(std::move(moved));
+  }
+  for (const auto& [name, by] : material.fit->shared_uncertainty) {
+    if (is_valid(moved_shared(material, name, by))) out.shared.emplace_back(name, by);
+  }
+  return out;
+}
+
+Eigen::Map<Eigen::ArrayXd> readings_of(std::vector<double>& all, std::size_t first, const Problem& part) {
+  return {all.data() + first, static_cast<Eigen::Index>(part.readings())};
+}
+
+// Of a problem in one piece, or a part whose readings start at `first`.
+void fill_values(const Problem& part, ColumnValues values, const Material& material, const Moves& moves,
+                 std::size_t first, FittedValues& out) {
+  const std::size_t channels = part.channels.size();
+  const auto n = static_cast<Eigen::Index>(part.readings());
+  const auto add_squares = [&](const Material& there, std::size_t c) {
+    const auto fitted = readings_of(out.fitted[c], first, part);
+    readings_of(out.open[c], first, part) += (values.of(there, c).head(n).array() - fitted).square();
+  };
+  values.set(values.shape());
+  for (std::size_t c = 0; c < channels; ++c)
+    readings_of(out.fitted[c], first, part) = values.of(material, c).head(n).array();
+  for (const Material& moved : moves.channels) {
+    for (std::size_t c = 0; c < channels; ++c) add_squares(moved, c);
+  }
+  for (const auto& [name, by] : moves.shared) {
+    const Eigen::VectorXd shape = values.shape_with(name, by);
+    if (shape.size() == 0) continue;
+    values.set(shape);
+    for (std::size_t c = 0; c < channels; ++c) add_squares(material, c);
+  }
+  for (std::size_t c = 0; c < channels; ++c) {
+    auto open = readings_of(out.open[c], first, part);
+    open = open.sqrt();
   }
 }
 
@@ -151,28 +191,23 @@ bool says_all(const Problem& problem, const Material& material) {
 std::optional<FittedValues> fitted_values(const Problem& problem, Model& model, const FitPoint& point,
                                           const Material& material) {
   if (!says_all(problem, material)) return std::nullopt;
-  const std::size_t channels = problem.channels.size();
-  ColumnValues values(problem, model, problem.shape.at(point.z.data()));
-  values.set(values.shape());
-  FittedValues out{&problem.pairs, std::vector<double>(problem.readings() * channels),
-                   std::vector<double>(problem.readings() * channels, 0.0)};
-  for (std::size_t c = 0; c < channels; ++c) {
-    const Eigen::VectorXd& own = values.of(material, c);
-    for (std::size_t i = 0; i < problem.readings(); ++i)
-      out.fitted[i * channels + c] = own[static_cast<Eigen::Index>(i)];
+  FittedValues out{.pairs = problem.by_parts() ? nullptr : &problem.pairs};
+  for (std::size_t c = 0; c < problem.channels.size(); ++c) {
+    out.fitted.emplace_back(problem.readings());
+    out.open.emplace_back(problem.readings(), 0.0);
   }
-  for (const std::string& name : channel_names(material)) {
-    const Material moved = moved_channels(material, name);
-    if (!is_valid(moved)) continue;
-    for (std::size_t c = 0; c < channels; ++c) add_squares(values.of(moved, c), out, c, channels, out.open);
+  const Moves moves = moves_of(material);
+  const Eigen::VectorXd shape = problem.shape.at(point.z.data());
+  if (!problem.by_parts()) {
+    fill_values(problem, ColumnValues(problem, model, shape), material, moves, 0, out);
+    return out;
   }
-  for (const auto& [name, by] : material.fit->shared_uncertainty) {
-    const Eigen::VectorXd shape = values.shape_with(name, by);
-    if (shape.size() == 0 || !is_valid(moved_shared(material, name, by))) continue;
-    values.set(shape);
-    for (std::size_t c = 0; c < channels; ++c) add_squares(values.of(material, c), out, c, channels, out.open);
-  }
-  for (double& u : out.open) u = std::sqrt(u);
+  std::size_t first = 0;
+  problem.for_each_part([&](const Problem& part) {
+    Model own(part);
+    fill_values(part, ColumnValues(part, own, shape), material, moves, first, out);
+    first += part.readings();
+  });
   return out;
 }
 

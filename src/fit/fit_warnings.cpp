@@ -52,6 +52,7 @@ class Words {
   void surface();
   void no_slope();
   void lengths();
+  void drawn();
   void peer();
   void opaque();
   void open_directions();
@@ -71,9 +72,9 @@ class Words {
 
 void Words::dark_channels() {
   for (const ProblemChannel& c : problem_.channels) {
-    if (c.target.maxCoeff() > 0.0) continue;
+    if (c.value.maxCoeff() > 0.0) continue;
     warn(fmt::format("channel {} is dark: {}, so it says nothing of the surface; leave it out (--channels)", c.name,
-                     c.target.minCoeff() < 0.0 ? "none of its readings is above 0" : "all its readings are 0"));
+                     c.value.minCoeff() < 0.0 ? "none of its readings is above 0" : "all its readings are 0"));
   }
 }
 
@@ -288,6 +289,17 @@ void Words::say_all() {
          " negative readings were kept: noise around zero, which must not be cut off");
   }
   loss_is_the_limit();
+  drawn();
+}
+
+// What of a very large scan is not from every reading.
+void Words::drawn() {
+  const std::size_t count = problem_.drawn.rows.size();
+  if (count == 0) return;
+  const bool by_readings = out_.uncertainty_from == UncertaintySource::readings;
+  note(fmt::format(
+      "{} of the {} readings, drawn to stand for all, were searched{}; everything else is from all readings", count,
+      problem_.readings(), by_readings ? "" : " and tell the residuals' noise and how far intervals reach"));
 }
 
 }  // namespace

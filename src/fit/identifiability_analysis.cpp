@@ -2,12 +2,13 @@
 
 #include <fmt/format.h>
 #include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
+
+#include "fit/triangle.h"
 
 namespace goniofit {
 
@@ -27,13 +28,6 @@ bool near(double value, double bound) {
 double coefficient_size(double value, double lower, double upper) {
   if (std::isfinite(upper - lower)) return std::max(std::fabs(value), part_of_range * (upper - lower));
   return std::clamp(std::fabs(value), part_of_range, most_of_unbounded);
-}
-
-Eigen::MatrixXd triangle_of(const Eigen::MatrixXd& m) {
-  const Eigen::Index rows = std::min(m.rows(), m.cols());
-  if (rows == 0) return Eigen::MatrixXd::Zero(0, m.cols());
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(m);
-  return qr.matrixQR().topRows(rows).triangularView<Eigen::Upper>();
 }
 
 class Analysis {
@@ -253,13 +247,10 @@ Eigen::MatrixXd design_triangle(const std::vector<DesignColumn>& columns, const 
   return triangle_of(stacked);
 }
 
-Identifiability identify(const Problem& problem, const FitPoint& point, const Linearisation& l,
-                         const ReadingNoise& noise) {
+Identifiability identify(const Problem& problem, const FitPoint& point, const LinearSums& sums) {
   std::vector<DesignColumn> columns = design_columns(problem, point);
   if (columns.empty()) return {};
-  std::vector<Eigen::MatrixXd> whitened;
-  for (std::size_t c = 0; c < problem.channels.size(); ++c) whitened.push_back(whitened_columns(l, noise, c));
-  const Eigen::MatrixXd triangle = design_triangle(columns, whitened, problem.shape.free);
+  const Eigen::MatrixXd triangle = design_triangle(columns, sums.whitened, problem.shape.free);
   return Analysis(std::move(columns), triangle).result();
 }
 

@@ -5,13 +5,13 @@
 #include <vector>
 
 #include "identifiability.h"
+#include "linear_parts.h"
 #include "model.h"
 #include "problem.h"
-#include "whitening.h"
 
 namespace goniofit {
 
-/// A parameter that is not fixed, and where it stands in the columns of whitened_columns().
+/// A parameter that is not fixed, and where it stands in the columns of LinearSums.
 struct DesignColumn {
   std::string name, channel;  ///< channel empty for shared ones
   std::ptrdiff_t channel_index = -1;
@@ -27,11 +27,12 @@ struct DesignColumn {
 /// Shape parameters first, then channel after channel.
 [[nodiscard]] std::vector<DesignColumn> design_columns(const Problem& problem, const FitPoint& point);
 
-/// The whole whitened Jacobian's triangle R (J = QR) over `columns`, each multiplied by its size.
+/// The whole whitened Jacobian's triangle R (J = QR) over `columns`, each multiplied by its size; `whitened`: of each
+/// channel the rows themselves, or their triangle.
 [[nodiscard]] Eigen::MatrixXd design_triangle(const std::vector<DesignColumn>& columns,
                                               const std::vector<Eigen::MatrixXd>& whitened, Eigen::Index shape_columns);
 
-[[nodiscard]] Identifiability identify(const Problem& problem, const FitPoint& point, const Linearisation& l,
-                                       const ReadingNoise& noise);
+/// `sums` with those in units of the noise.
+[[nodiscard]] Identifiability identify(const Problem& problem, const FitPoint& point, const LinearSums& sums);
 
 }  // namespace goniofit

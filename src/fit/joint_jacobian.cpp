@@ -1,11 +1,12 @@
 #include "fit/joint_jacobian.h"
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "fit/dot.h"
+#include "fit/triangle.h"
 
 namespace goniofit {
 
@@ -24,12 +25,20 @@ JacobianBlock block_of(std::size_t channel, const Linearisation& l, const Parame
   return b;
 }
 
-// R of m = QR.
-Eigen::MatrixXd triangle_of(const Eigen::MatrixXd& m) {
-  const Eigen::Index rows = std::min(m.rows(), m.cols());
-  if (rows == 0) return Eigen::MatrixXd::Zero(0, m.cols());
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(m);
-  return qr.matrixQR().topRows(rows).triangularView<Eigen::Upper>();
+// Of the parameters that have a place: the columns of a channel in LinearSums, and their places.
+void find_columns(const ParameterPlaces& places, std::size_t channel, std::vector<Eigen::Index>& columns,
+                  std::vector<Eigen::Index>& index) {
+  Eigen::Index column = 0;
+  const auto add = [&](Eigen::Index place) {
+    if (place >= 0) {
+      columns.push_back(column);
+      index.push_back(place);
+    }
+    ++column;
+  };
+  for (const Eigen::Index place : places.shape) add(place);
+  for (const Eigen::Index place : places.coefficients[channel]) add(place);
+  if (!places.optics.empty()) add(places.optics[channel]);
 }
 
 }  // namespace
@@ -53,40 +62,20 @@ Eigen::VectorXd JacobianBlock::transposed_times(const Eigen::VectorXd& v) const 
   return out;
 }
 
-// Of so many rows at a time, each on top of them the triangle of those before: they stay in the cache.
-Eigen::MatrixXd JacobianBlock::triangle(const double* weight) const {
-  constexpr Eigen::Index at_once = 512;
-  Eigen::MatrixXd r(0, cols());
-  for (Eigen::Index first = 0; first < rows_; first += at_once) {
-    const Eigen::Index count = std::min(at_once, rows_ - first);
-    Eigen::MatrixXd part(r.rows() + count, cols());
-    part.topRows(r.rows()) = r;
-    for (Eigen::Index p = 0; p < cols(); ++p) part.col(p).tail(count) = column(p).segment(first, count);
-    if (weight != nullptr)
-      part.bottomRows(count).array().colwise() *= Eigen::Map<const Eigen::ArrayXd>(weight + first, count);
-    r = triangle_of(part);
-  }
-  return r;
-}
-
-// By way of the triangles of the blocks. Not by Cholesky's of JᵀJ, whose condition is the square of J's: with
+// By way of the triangles of the channels. Not by Cholesky's of JᵀJ, whose condition is the square of J's: with
 // parameters that all but stand in for each other (three exponentials, quotients of cubics) half the digits would go.
-JointJacobian::JointJacobian(const Linearisation& l, const ParameterPlaces& places) {
-  std::vector<Eigen::MatrixXd> triangles;
+JointJacobian::JointJacobian(const LinearSums& sums, ParameterPlaces places) : places_(std::move(places)) {
   Eigen::Index rows = 0;
-  for (std::size_t c = 0; c < l.residuals.size(); ++c) {
-    blocks_.push_back(block_of(c, l, places));
-    triangles.push_back(blocks_.back().triangle(nullptr));
-    rows += triangles.back().rows();
+  for (std::size_t c = 0; c < sums.triangles.size(); ++c) {
+    find_columns(places_, c, columns_.emplace_back(), index_.emplace_back());
+    rows += sums.triangles[c].rows();
   }
-  Eigen::MatrixXd stacked = Eigen::MatrixXd::Zero(rows, places.size);
+  Eigen::MatrixXd stacked = Eigen::MatrixXd::Zero(rows, places_.size);
   rows = 0;
-  for (std::size_t c = 0; c < blocks_.size(); ++c) {
-    for (std::size_t j = 0; j < blocks_[c].index().size(); ++j) {
-      stacked.block(rows, blocks_[c].index()[j], triangles[c].rows(), 1) =
-          triangles[c].col(static_cast<Eigen::Index>(j));
-    }
-    rows += triangles[c].rows();
+  for (std::size_t c = 0; c < index_.size(); ++c) {
+    for (std::size_t j = 0; j < index_[c].size(); ++j)
+      stacked.col(index_[c][j]).segment(rows, sums.triangles[c].rows()) = sums.triangles[c].col(columns_[c][j]);
+    rows += sums.triangles[c].rows();
   }
   scale_ = stacked.colwise().norm().cwiseInverse();
   r_ = triangle_of(stacked * scale_.asDiagonal());
@@ -94,6 +83,13 @@ JointJacobian::JointJacobian(const Linearisation& l, const ParameterPlaces& plac
   root_ = Eigen::MatrixXd::Identity(r_.rows(), r_.cols());
   r_.triangularView<Eigen::Upper>().solveInPlace(root_);
   root_ = scale_.asDiagonal() * root_;
+}
+
+JointJacobian JointJacobian::with_rows(const Linearisation& l) const {
+  JointJacobian out = *this;
+  out.blocks_.clear();
+  for (std::size_t c = 0; c < l.residuals.size(); ++c) out.blocks_.push_back(block_of(c, l, places_));
+  return out;
 }
 
 bool JointJacobian::singular() const { return r_.rows() < r_.cols() || !(r_.diagonal().cwiseAbs().minCoeff() > 1e-6); }
@@ -111,9 +107,7 @@ std::vector<bool> JointJacobian::in_null_space() const {
   return null;
 }
 
-Eigen::MatrixXd JointJacobian::own_root(std::size_t channel) const {
-  return root_(blocks_[channel].index(), Eigen::all);
-}
+Eigen::MatrixXd JointJacobian::own_root(std::size_t channel) const { return root_(index_[channel], Eigen::all); }
 
 Eigen::VectorXd JointJacobian::transposed_times(const std::vector<Eigen::VectorXd>& v) const {
   Eigen::VectorXd out = Eigen::VectorXd::Zero(size());
@@ -125,8 +119,14 @@ Eigen::VectorXd JointJacobian::transposed_times(const std::vector<Eigen::VectorX
   return out;
 }
 
-Eigen::VectorXd JointJacobian::solve(const std::vector<Eigen::VectorXd>& v) const {
-  return root_ * (root_.transpose() * transposed_times(v));
+Eigen::VectorXd JointJacobian::gradient(const LinearSums& sums) const {
+  Eigen::VectorXd out = Eigen::VectorXd::Zero(size());
+  for (std::size_t c = 0; c < index_.size(); ++c) {
+    const Eigen::MatrixXd& triangle = sums.triangles[c];
+    for (std::size_t j = 0; j < index_[c].size(); ++j)
+      out[index_[c][j]] += triangle.col(columns_[c][j]).dot(triangle.rightCols(1).col(0));
+  }
+  return out;
 }
 
 Eigen::VectorXd JointJacobian::leverages(std::size_t channel) const { return variances_by(channel, root_); }
@@ -160,10 +160,22 @@ Eigen::MatrixXd JointJacobian::rough_meat(const std::vector<Eigen::VectorXd>& va
   return out;
 }
 
-Eigen::MatrixXd JointJacobian::meat(const std::vector<Eigen::VectorXd>& e) const {
-  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(size(), size());
-  for (std::size_t c = 0; c < blocks_.size(); ++c) {
-    const Eigen::MatrixXd weighted = blocks_[c].triangle(e[c].data()) * own_root(c);
+std::vector<Eigen::VectorXd> times_counts(std::vector<Eigen::VectorXd> v, const Eigen::ArrayXd& count) {
+  for (Eigen::VectorXd& own : v) {
+    if (count.size() > 0) own.array() *= count;
+  }
+  return v;
+}
+
+void Meat::add(const JointJacobian& j, const std::vector<Eigen::VectorXd>& e) {
+  for (std::size_t c = 0; c < triangles_.size(); ++c)
+    add_to_triangle(j.blocks()[c].columns(), j.blocks()[c].rows(), e[c].data(), triangles_[c]);
+}
+
+Eigen::MatrixXd Meat::of(const JointJacobian& j) const {
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(j.size(), j.size());
+  for (std::size_t c = 0; c < triangles_.size(); ++c) {
+    const Eigen::MatrixXd weighted = triangles_[c] * j.own_root(c);
     out.noalias() += weighted.transpose() * weighted;
   }
   return out;

@@ -13,6 +13,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "linear_parts.h"
 #include "model.h"
 #include "polish.h"
 #include "problem.h"
@@ -32,13 +33,12 @@ struct LobeTest {
   bool significant = true;
 };
 /// Significant without a test where no lobe has a free shape, or the settings demand one.
-[[nodiscard]] LobeTest test_lobes(const Problem& problem, const FitPoint& point, const Linearisation& l,
-                                  const ReadingNoise& noise);
+[[nodiscard]] LobeTest test_lobes(const Problem& problem, const FitPoint& point, const LinearSums& sums);
 
 /// Probability that noise alone makes as much of coh as the material has, sigma being free; 0 where there is nothing to
 /// test, or without coh the loss would be twice what it is.
-[[nodiscard]] double noise_makes_coherence(const Problem& problem, const Material& material, const Linearisation& l,
-                                           const ReadingNoise& noise);
+[[nodiscard]] double noise_makes_coherence(const LinearParts& parts, const NoiseModel& noise, double loss,
+                                           const Material& material);
 
 /// Bounds of a problem narrowed to 0 for some coefficients, until the end of its life.
 class HeldAtZero {

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "fit/dot.h"
+#include "fit/optics_columns.h"
 
 namespace goniofit {
 
@@ -24,7 +25,7 @@ Model::Model(const Problem& problem)
     : problem_(problem),
       states_(problem.channels.size()),
       parameters_(static_cast<Eigen::Index>(problem.basis->shape_parameters().size())) {
-  for (std::size_t i = 0; i < problem.pairs.size(); ++i) {
+  for (std::size_t i = 0; problem.basis->has_length() && i < problem.pairs.size(); ++i) {
     if (problem.basis->reads_length(problem.pairs[i])) late_rows_.push_back(i);
   }
   late_ = problem.pairs.subset(late_rows_);
@@ -56,25 +57,23 @@ std::size_t Model::factors_for(double wavelength_um) {
 }
 
 void Model::fill_optics(std::size_t channel, Group& group) const {
+  if (problem_.free_optics == FreeOptics::none) {
+    group.optics = optics_columns(problem_, problem_.channels[channel].optics);
+    return;
+  }
   const std::vector<BasisColumn>& columns = problem_.basis->columns();
   const Eigen::VectorXd& weight = problem_.point_weight;
   const Eigen::Index n = weight.size();
-  const bool fixed = problem_.free_optics == FreeOptics::none;
   group.optics.resize(n, static_cast<Eigen::Index>(columns.size()));
-  if (!fixed) group.optics_derivatives.resize(n, static_cast<Eigen::Index>(columns.size()));
+  group.optics_derivatives.resize(n, static_cast<Eigen::Index>(columns.size()));
   const BasicOptics<Dual> dual = problem_.optics_at(channel, Dual(group.optics_value, 0));
   for (std::size_t j = 0; j < columns.size(); ++j) {
     const auto column = static_cast<Eigen::Index>(j);
     for (Eigen::Index i = 0; i < n; ++i) {
       const Pair p = problem_.pairs[static_cast<std::size_t>(i)];
-      if (fixed) {
-        group.optics(i, column) =
-            weight[i] * optics_factor(columns[j].optics, problem_.terms.fresnel, problem_.channels[channel].optics, p);
-      } else {
-        const Dual factor = optics_factor(columns[j].optics, problem_.terms.fresnel, dual, p);
-        group.optics(i, column) = weight[i] * factor.a;
-        group.optics_derivatives(i, column) = weight[i] * factor.v[0];
-      }
+      const Dual factor = optics_factor(columns[j].optics, problem_.terms.fresnel, dual, p);
+      group.optics(i, column) = weight[i] * factor.a;
+      group.optics_derivatives(i, column) = weight[i] * factor.v[0];
     }
   }
 }

@@ -16,6 +16,8 @@ constexpr double smallest_noise = 1e-6;
 // Standard deviation of a normal distribution over the median of its absolute value.
 constexpr double sigma_of_median = 1.4826022185056018;
 
+using Values = Eigen::Ref<const Eigen::VectorXd>;
+
 double median(std::vector<double>& values) { return value_at_rank(values, values.size() / 2); }
 
 struct NoiseClass {
@@ -26,7 +28,7 @@ struct NoiseClass {
 // ten bits of the fraction throughout, in full about the ranks asked for.
 class SizeOrder {
  public:
-  explicit SizeOrder(const Eigen::VectorXd& f) : order_(static_cast<std::size_t>(f.size())) {
+  explicit SizeOrder(const Values& f) : order_(static_cast<std::size_t>(f.size())) {
     for (std::size_t i = 0; i < order_.size(); ++i)
       order_[i] = {key_of_size(std::fabs(f[static_cast<Eigen::Index>(i)])), i};
     radix_sort(order_, rough_bit);
@@ -54,7 +56,7 @@ class SizeOrder {
   std::size_t settled_ = 0;
 };
 
-std::vector<NoiseClass> classes_of(const Eigen::VectorXd& f, const Eigen::VectorXd& residual, double floor2) {
+std::vector<NoiseClass> classes_of(const Values& f, const Values& residual, double floor2) {
   SizeOrder order(f);
   const std::size_t count = std::clamp<std::size_t>(order.size() / 25, 1, 20);
   std::vector<NoiseClass> classes;
@@ -74,7 +76,7 @@ std::vector<NoiseClass> classes_of(const Eigen::VectorXd& f, const Eigen::Vector
 
 }  // namespace
 
-Noise estimate_noise(const Eigen::VectorXd& f, const Eigen::VectorXd& residual) {
+Noise estimate_noise(const Values& f, const Values& residual) {
   if (f.size() == 0) return {};
   const double scale2 = f.squaredNorm() / static_cast<double>(f.size());
   const double floor2 = smallest_noise * smallest_noise * scale2;

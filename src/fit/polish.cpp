@@ -11,6 +11,7 @@
 
 #include "fit/material_point.h"
 #include "fit/model.h"
+#include "fit/point_equations.h"
 
 namespace goniofit {
 
@@ -55,6 +56,7 @@ struct State {
     for (std::size_t i = 0; i < moving.size(); ++i) shape[i] = point.z[moving[i]];
   }
 
+  /// Brings the point to where Ceres' parameter blocks are.
   void gather() {
     for (std::size_t i = 0; i < moving.size(); ++i) point.z[moving[i]] = shape[i];
     for (std::size_t c = 0; c < channels.size(); ++c) {
@@ -70,20 +72,18 @@ struct State {
   std::vector<double> storage_;
 };
 
-// Shape factors once an evaluation for all channels. With their derivatives, always: these cost a seventh of what the
-// values do, and nearly every point that Ceres tries it goes on from.
-class ShapeCallback final : public ceres::EvaluationCallback {
+// All channels at once, with their derivatives always: nearly every point that Ceres tries it goes on from.
+class EquationsCallback final : public ceres::EvaluationCallback {
  public:
-  ShapeCallback(Model& model, const State& state) : model_(model), state_(state) {}
+  EquationsCallback(EquationsAt& equations, State& state) : equations_(equations), state_(state) {}
   void PrepareForEvaluation(bool /*jacobians*/, bool /*new_point*/) override {
-    std::vector<double> z = state_.point.z;
-    for (std::size_t i = 0; i < state_.moving.size(); ++i) z[state_.moving[i]] = state_.shape[i];
-    model_.set_shape(z.data(), true);
+    state_.gather();
+    equations_.at(state_.point);
   }
 
  private:
-  Model& model_;
-  const State& state_;
+  EquationsAt& equations_;
+  State& state_;
 };
 
 // All readings of one channel, compressed. A step of Ceres reads the residuals r and the Jacobian J only through |r|²,
@@ -91,8 +91,8 @@ class ShapeCallback final : public ceres::EvaluationCallback {
 // that it stands for. With those rows the polish takes three times as long (measured on 1439 x 3 readings).
 class ChannelCost final : public ceres::CostFunction {
  public:
-  ChannelCost(Model& model, const Problem& problem, const State& state, std::size_t channel)
-      : model_(model),
+  ChannelCost(const EquationsAt& equations, const Problem& problem, const State& state, std::size_t channel)
+      : equations_(equations),
         problem_(problem),
         free_shape_(static_cast<int>(state.moving.size())),
         state_(state),
@@ -103,22 +103,14 @@ class ChannelCost final : public ceres::CostFunction {
     if (layout().size() > 0) mutable_parameter_block_sizes()->push_back(static_cast<int>(layout().size()));
   }
 
-  bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override {
-    SmallVector k = state_.point.coefficients[channel_];
-    if (layout().size() > 0) {
-      const double* const x = parameters[free_shape_ > 0 ? 1 : 0];
-      for (std::size_t i = 0; i < layout().coefficients.size(); ++i)
-        k[static_cast<Eigen::Index>(layout().coefficients[i])] = x[i];
-      if (layout().optics) model_.set_optics(channel_, x[layout().coefficients.size()]);
-    }
-    if (!layout().optics && !state_.point.optics.empty()) model_.set_optics(channel_, state_.point.optics[channel_]);
+  bool Evaluate(double const* const* /*parameters*/, double* residuals, double** jacobians) const override {
+    const ChannelEquations& e = equations_.last().channels[channel_];
     Eigen::Map<Eigen::VectorXd> compressed(residuals, width_ + 1);
     if (jacobians == nullptr) {
       compressed.setZero();
-      compressed[width_] = std::sqrt(model_.residuals(channel_, k, scratch_));
+      compressed[width_] = std::sqrt(e.loss);
       return true;
     }
-    const ChannelEquations e = model_.equations(channel_, k);
     const Eigen::MatrixXd triangle = compress(e.products);
     compressed = triangle.col(width_);
     // What a robust kernel's loss exceeds the squares by depends on no step: the row that no parameter moves has it.
@@ -162,32 +154,13 @@ class ChannelCost final : public ceres::CostFunction {
     Eigen::Map<RowMajor>(to, width_ + 1, count) = triangle.middleCols(first, count);
   }
 
-  Model& model_;
+  const EquationsAt& equations_;
   const Problem& problem_;
   int free_shape_;
   const State& state_;
   std::size_t channel_;
   Eigen::Index width_;
-  mutable Eigen::VectorXd scratch_;
 };
-
-// Of all channels at a point.
-struct PointEquations {
-  std::vector<ChannelEquations> channels;
-  double loss = 0.0;
-
-  [[nodiscard]] Eigen::Index residuals() const noexcept { return channels.front().products.cols() - 1; }
-};
-
-PointEquations equations_at(Model& model, const FitPoint& point) {
-  model.set_shape(point.z.data(), true);
-  PointEquations out;
-  for (std::size_t c = 0; c < point.coefficients.size(); ++c) {
-    if (!point.optics.empty()) model.set_optics(c, point.optics[c]);
-    out.loss += out.channels.emplace_back(model.equations(c, point.coefficients[c])).loss;
-  }
-  return out;
-}
 
 ceres::Solver::Options solver_options(const Problem& problem, double tolerance) {
   ceres::Solver::Options options;
@@ -208,9 +181,10 @@ void add_bounds(ceres::Problem& ceres_problem, double* block, int index, double 
 }
 
 // One Ceres run over what `state` leaves free. Returns whether it converged.
-bool run_ceres(const Problem& problem, Model& model, State& state, double tolerance, std::size_t& iterations) {
+bool run_ceres(const Problem& problem, EquationsAt& equations, State& state, double tolerance,
+               std::size_t& iterations) {
   ceres::Problem::Options problem_options;
-  ShapeCallback callback(model, state);
+  EquationsCallback callback(equations, state);
   problem_options.evaluation_callback = &callback;
   ceres::Problem ceres_problem(problem_options);
   ceres::Solver::Options options = solver_options(problem, tolerance);
@@ -222,7 +196,7 @@ bool run_ceres(const Problem& problem, Model& model, State& state, double tolera
     if (shape_is_free) blocks.push_back(state.shape.data());
     if (layout.size() > 0) blocks.push_back(layout.x.data());
     if (blocks.empty()) continue;
-    ceres_problem.AddResidualBlock(new ChannelCost(model, problem, state, c), nullptr, blocks);
+    ceres_problem.AddResidualBlock(new ChannelCost(equations, problem, state, c), nullptr, blocks);
     const ProblemChannel& channel = problem.channels[c];
     for (std::size_t i = 0; i < layout.coefficients.size(); ++i) {
       const auto j = static_cast<Eigen::Index>(layout.coefficients[i]);
@@ -354,20 +328,21 @@ Polished polish(const Problem& problem, const FitPoint& start, double tolerance)
 
 Polished polish(const Problem& problem, Model& model, const FitPoint& start, double tolerance) {
   Polished result{start, 0, false, 0.0};
-  PointEquations e = equations_at(model, result.point);
+  EquationsAt equations(problem, model);
+  PointEquations e = equations.at(result.point);
   result.point.loss = e.loss;
   // Each round solves with the bounds that press held fixed; a round after the first is needed only where one was held
   // wrongly or a new one was met.
   for (int round = 0; round < 8; ++round) {
     State state = layout_for(problem, result.point, e);
-    const bool converged = run_ceres(problem, model, state, tolerance, result.iterations);
+    const bool converged = run_ceres(problem, equations, state, tolerance, result.iterations);
     state.gather();
-    PointEquations at_end = equations_at(model, state.point);
+    const PointEquations& at_end = equations.at(state.point);
     const double before = result.point.loss;
     if (at_end.loss <= before) {
       result.point = state.point;
       result.point.loss = at_end.loss;
-      e = std::move(at_end);
+      e = at_end;
     }
     result.optimality = optimality_of(problem, result.point, e);
     result.converged = converged && result.optimality < 1e-5;

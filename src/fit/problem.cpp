@@ -8,6 +8,7 @@
 #include "fit/parameter_settings.h"
 #include "fit/reading_noise.h"
 #include "fit/surface_basis.h"
+#include "fit/thinning.h"
 #include "peers/peers.h"
 #include "support/error.h"
 
@@ -32,6 +33,15 @@ std::optional<double> per_channel(const std::vector<double>& values, std::size_t
 
 bool same(const ChannelOptics& a, const ChannelOptics& b) { return a.n == b.n && a.kappa == b.kappa && a.f0 == b.f0; }
 
+// Whether what is asked for reads a reading at a time, and geometry anew as often as need be. The integral over grooves
+// is tabulated once for each pair.
+bool goes_by_parts(const FitSettings& settings) {
+  const bool tabulated = settings.components && settings.components->has(Effect::rough);
+  const bool quadratic = !is_transformed(settings.loss) && settings.robust == RobustKernel::none;
+  return quadratic && !tabulated && !settings.reflectances && !settings.profile &&
+         settings.uncertainty != UncertaintySource::angles;
+}
+
 }  // namespace
 
 Eigen::VectorXd ShapeMap::at(const double* z) const {
@@ -40,20 +50,21 @@ Eigen::VectorXd ShapeMap::at(const double* z) const {
   return result;
 }
 
-Problem::Problem(const Scan& scan, const FitSettings& settings)
-    : model(settings.model),
-      terms(settings.terms),
-      forms(settings.forms),
-      anisotropic(settings.anisotropic || settings.parameters.contains("slope_y")),
-      solid_angle_sr(settings.solid_angle_sr.value_or(scan.solid_angle_sr.value_or(default_solid_angle_sr))),
-      free_optics(settings.free_optics),
-      weighting(settings.weight) {
+Problem::Problem(const Scan& scan, const FitSettings& settings, Hold hold)
+    : ProblemTerms{
+          .model = settings.model,
+          .terms = settings.terms,
+          .forms = settings.forms,
+          .anisotropic = settings.anisotropic || settings.parameters.contains("slope_y"),
+          .solid_angle_sr = settings.solid_angle_sr.value_or(scan.solid_angle_sr.value_or(default_solid_angle_sr)),
+          .free_optics = settings.free_optics,
+          .weighting = settings.weight,
+          .loss = settings.loss} {
   std::vector<std::string> names;
   for (const ScanChannel& c : scan.channels) names.push_back(c.name);
   check_parameter_names(settings, names);
   check_range(solid_angle_sr, 1e-12, 2.0 * pi, "solid angle");
-  loss = settings.loss;
-  choose_rows(scan, settings);
+  choose_rows(scan, settings, hold == Hold::parts && goes_by_parts(settings));
   choose_optics(scan, settings);
   if (model == surface_model) {
     choose_components(settings);
@@ -64,22 +75,19 @@ Problem::Problem(const Scan& scan, const FitSettings& settings)
   choose_shape(settings);
   choose_coefficients(settings);
   add_reflectances(settings);
-  choose_weights(scan, settings);
+  choose_weights(scan);
   fill_values(scan, settings);
   fill_targets();
   choose_uncertainty(scan, settings);
+  if (by_parts()) drawn = searched_rows(*this);
 }
 
 Problem::Problem(std::unique_ptr<const Basis> own_basis, Readings readings, const FitSettings& settings)
-    : anisotropic(false),
-      solid_angle_sr(default_solid_angle_sr),
-      free_optics(FreeOptics::none),
-      weighting(Weight::none),
+    : ProblemTerms{.optics_groups = 1},
       basis(std::move(own_basis)),
       pairs(std::move(readings.pairs)),
       weight(readings.weight.cwiseSqrt()),
-      channels(readings.values.size()),
-      optics_groups(1) {
+      channels(readings.values.size()) {
   const auto n = static_cast<Eigen::Index>(pairs.size());
   terms.fresnel = FresnelTier::none;
   if (weight.size() == 0) weight = Eigen::VectorXd::Ones(n);
@@ -108,12 +116,16 @@ std::optional<std::size_t> Problem::shape_index(const std::string& name) const {
   return static_cast<std::size_t>(at - all.begin());
 }
 
-void Problem::choose_basis() {
+void Problem::make_basis() {
   if (model == surface_model) {
     basis = std::make_unique<SurfaceBasis>(components, ShapeSettings::of(terms, forms, anisotropic), solid_angle_sr);
   } else {
     basis = make_peer(model, solid_angle_sr);
   }
+}
+
+void Problem::choose_basis() {
+  make_basis();
   if (!basis->has_length()) return;
   for (const ProblemChannel& c : channels) {
     if (c.wavelength_um) continue;
@@ -175,9 +187,11 @@ void Problem::choose_components(const FitSettings& settings) {
   components = settings.components.value_or(EffectSet{});
   if (components.empty()) throw usage_error("components: none given, expected some of " + names_of<Effect>());
   if (!components.has(Effect::coh)) return;
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    if (in_mirror_cone(pairs[i], solid_angle_sr)) return;
-  }
+  bool in_cone = false;
+  for_each_pairs([&](const PairBatch& run) {
+    for (std::size_t i = 0; i < run.size() && !in_cone; ++i) in_cone = in_mirror_cone(run[i], solid_angle_sr);
+  });
+  if (in_cone) return;
   components.erase(Effect::coh);
   components.insert(Effect::dd);
   warnings.emplace_back(

@@ -12,6 +12,7 @@
 #include "fit/problem.h"
 #include "geometry/angles.h"
 #include "geometry/direction.h"
+#include "geometry/lane_angles.h"
 #include "geometry/solid_angles.h"
 #include "scan/clipping.h"
 #include "support/error.h"
@@ -125,11 +126,13 @@ void Problem::emphasise(std::vector<Eigen::VectorXd> emphasis) {
   fill_targets();
 }
 
-void Problem::choose_rows(const Scan& scan, const FitSettings& settings) {
+void Problem::choose_rows(const Scan& scan, const FitSettings& settings, bool may_part) {
   check_range(settings.max_theta_deg, 0.0, 90.0, "max-theta");
   const double cone = settings.exclusions.retro_cone_deg;
   check_range(cone, 0.0, 180.0, "exclude-retro");
   std::vector<AnglePair> angles;
+  theta_i_deg.reserve(scan.size());
+  rows.reserve(scan.size());
   angles.reserve(scan.size());
   for (std::size_t row = 0; row < scan.size(); ++row) {
     const AnglePair a = scan.angles(row);
@@ -146,7 +149,12 @@ void Problem::choose_rows(const Scan& scan, const FitSettings& settings) {
       angles.push_back(a);
     }
   }
-  pairs = PairBatch(angles);
+  if (may_part && rows.size() > most_held) {
+    angles_ = std::move(angles);
+    theta_i_deg = {};
+  } else {
+    pairs = PairBatch(angles);
+  }
   sums = RowSums(rows.size());
   if (!rows.empty()) return;
   throw usage_error(scan.source + ": no reading is left to fit: " + std::to_string(exclusions.at_90) +
@@ -157,6 +165,7 @@ void Problem::choose_rows(const Scan& scan, const FitSettings& settings) {
 
 // The reflectances' nodes, as points of evaluation.
 void Problem::add_reflectances(const FitSettings& settings) {
+  if (by_parts()) return;
   point_weight = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(rows.size()));
   if (!settings.reflectances) return;
   const ReflectanceReadings& readings = *settings.reflectances;
@@ -181,34 +190,38 @@ void Problem::add_reflectances(const FitSettings& settings) {
   }
 }
 
+void Problem::choose_weights(const Scan& scan) {
+  weight.resize(static_cast<Eigen::Index>(samples()));
+  const auto row = static_cast<Eigen::Index>(readings());
+  weight.head(row).setOnes();
+  for (std::size_t i = 0; has_cosine(weighting) && i < readings(); ++i) {
+    const double theta = by_parts() ? angles_[i].theta_i_deg : theta_i_deg[i];
+    weight[static_cast<Eigen::Index>(i)] = std::sqrt(sine_cosine_deg(Lane<double>{theta}).cosine.v);
+  }
+  if (has_solid_angle(weighting)) {
+    const Eigen::VectorXd even = evening_weights(scan, rows).cwiseSqrt();
+    weight.head(row) = weight.head(row).cwiseProduct(even);
+  }
+  if (by_parts()) return;
+  point_weight.head(row) = weight.head(row);
+  if (samples() > readings()) weigh_reflectances(scan);
+}
+
 // A reflectance counts as much as the readings of one direction of incidence do together, but by inverse variance,
 // where each counts by its own.
-void Problem::choose_weights(const Scan& scan, const FitSettings& settings) {
-  weighting = settings.weight;
+void Problem::weigh_reflectances(const Scan& scan) {
   std::set<Incidence> incidences;
   for (const std::size_t row : rows) incidences.insert(incidence_of(scan.angles(row)));
   const double together = loss == Loss::inverse_variance
                               ? 1.0
                               : std::sqrt(static_cast<double>(rows.size()) / static_cast<double>(incidences.size()));
-  const Eigen::VectorXd even = has_solid_angle(weighting) ? evening_weights(scan, rows) : Eigen::VectorXd();
-  weight.resize(static_cast<Eigen::Index>(samples()));
   Eigen::Index point = static_cast<Eigen::Index>(readings());
-  for (std::size_t i = 0; i < samples(); ++i) {
-    const auto at = static_cast<Eigen::Index>(i);
-    double w = 1.0;
-    if (has_cosine(weighting)) {
-      w = i < readings() ? std::sqrt(pairs.cos_i[i]) : std::sqrt(cos_deg(theta_i_deg[i]));
-    }
-    if (i < readings()) {
-      if (even.size() > 0) w *= std::sqrt(even[at]);
-      point_weight[at] = w;
-    } else {
-      w *= together;
-      for (const Eigen::Index end = point + static_cast<Eigen::Index>(sums.points(i)); point < end; ++point) {
-        point_weight[point] *= w;
-      }
-    }
-    weight[at] = w;
+  for (std::size_t i = readings(); i < samples(); ++i) {
+    const double w = together * (has_cosine(weighting) ? std::sqrt(cos_deg(theta_i_deg[i])) : 1.0);
+    const Eigen::Index points = static_cast<Eigen::Index>(sums.points(i));
+    point_weight.segment(point, points) *= w;
+    point += points;
+    weight[static_cast<Eigen::Index>(i)] = w;
   }
 }
 
@@ -287,7 +300,7 @@ void Problem::choose_emphasis() {
 void Problem::fill_targets() {
   total = 0.0;
   for (ProblemChannel& c : channels) {
-    c.target = weight.cwiseProduct(c.value);
+    if (!by_parts()) c.target = weight.cwiseProduct(c.value);
     for (Eigen::Index i = 0; i < c.value.size(); ++i) {
       const double own = c.emphasis.size() > 0 ? c.emphasis[i] : 1.0;
       const double r = weight[i] * own * transformed(loss, c.value[i]).value;

@@ -8,6 +8,7 @@
 
 #include "fit/coefficient_refine.h"
 #include "fit/dot.h"
+#include "fit/optics_columns.h"
 
 namespace goniofit {
 
@@ -161,25 +162,6 @@ void Profile::fill(Part& part) const {
   }
 }
 
-Eigen::MatrixXd Profile::weighted_optics(const ChannelOptics& optics, const Part& part) const {
-  const Eigen::VectorXd& weight = part.point_weight;
-  Eigen::MatrixXd result(weight.size(), static_cast<Eigen::Index>(columns_));
-  for (Eigen::Index i = 0; i < weight.size(); ++i) {
-    const Pair p = problem_.pairs[part.points[static_cast<std::size_t>(i)]];
-    const double f = fresnel(problem_.terms.fresnel, optics, p);
-    const double t = transmission(problem_.terms.fresnel, optics, p);
-    for (std::size_t j = 0; j < columns_; ++j) {
-      const OpticsFactor factor = problem_.basis->columns()[j].optics;
-      double o = 1.0;
-      if (factor == OpticsFactor::fresnel) o = f;
-      if (factor == OpticsFactor::transmission) o = t;
-      if (factor == OpticsFactor::remainder) o = remainder(problem_.terms.fresnel, optics, p);
-      result(i, static_cast<Eigen::Index>(j)) = weight[i] * o;
-    }
-  }
-  return result;
-}
-
 // gram and rhs += those of one channel; `columns` by row.
 void Profile::add_equations(const Part& part, std::size_t channel, Eigen::Index first_row,
                             const Eigen::MatrixXd& columns, SmallMatrix* gram, Eigen::Ref<Eigen::VectorXd> rhs) const {
@@ -206,8 +188,8 @@ void Profile::add_group(std::size_t index) {
     const ChannelOptics optics = fixed ? first.optics : problem_.optics_at(group.channels.front(), value);
     Candidate candidate;
     candidate.value = value;
-    candidate.early = weighted_optics(optics, early_);
-    candidate.late = weighted_optics(optics, late_);
+    candidate.early = optics_columns(problem_, optics, early_.points, early_.point_weight);
+    candidate.late = optics_columns(problem_, optics, late_.points, late_.point_weight);
     group.candidates.push_back(std::move(candidate));
   }
   groups_.push_back(std::move(group));

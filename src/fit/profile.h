@@ -69,7 +69,6 @@ class Profile {
   void add_block(const Block& block, const Group& group, const Candidate& candidate, std::vector<SmallMatrix>& gram,
                  Eigen::MatrixXd& rhs);
   void add_group(std::size_t index);
-  [[nodiscard]] Eigen::MatrixXd weighted_optics(const ChannelOptics& optics, const Part& part) const;
   void reset_early_equations();
   void update_early(const Eigen::VectorXd& shape);
   void add_equations(const Part& part, std::size_t channel, Eigen::Index first_row, const Eigen::MatrixXd& columns,

@@ -19,7 +19,8 @@ constexpr double negligible = 1e-4;
 
 // See NoiseReadings.
 struct Sample {
-  Eigen::ArrayXd first, second, square, leverage;
+  Eigen::ArrayXd first, second, square;
+  Eigen::ArrayXd own_leverage, leverage;  ///< the second of all readings that this one stands for
 
   [[nodiscard]] Eigen::ArrayXd variance(const Noise& n) const {
     return n.additive * n.additive * first + n.relative * n.relative * second;
@@ -79,14 +80,12 @@ Noise noise_of(Samples samples) {
   return {std::sqrt(supposed.relative2), std::sqrt(supposed.additive2)};
 }
 
-Sample sample_of(const Eigen::VectorXd& by_value, const Eigen::VectorXd& value, const Eigen::VectorXd& residual,
-                 const Eigen::VectorXd& leverage) {
+// What the variances of residuals are made of.
+Sample sample_of(const Eigen::VectorXd& by_value, const Eigen::VectorXd& value, const Eigen::VectorXd& residual) {
   Sample s;
   s.first = by_value.array().square();
   const Eigen::ArrayXd off = (by_value.array() != 0.0).select(residual.array() / by_value.array(), 0.0);
   s.second = s.first * (value.array() - off).square();
-  s.leverage = (s.first > 0.0).select(leverage.array(), 0.0);
-  s.square.resize(s.first.size());
   return s;
 }
 
@@ -97,9 +96,10 @@ Sample sample_of(const Eigen::VectorXd& by_value, const Eigen::VectorXd& value, 
 //
 // Where little is left, as of a reading that alone decides a parameter, the residual tells no noise.
 void set_squares(const JointJacobian& j, const std::vector<Eigen::VectorXd>& residuals,
-                 const std::vector<Eigen::VectorXd>& variance, std::vector<Sample>& samples) {
+                 const std::vector<Eigen::VectorXd>& variance, const Eigen::ArrayXd& count,
+                 std::vector<Sample>& samples) {
   constexpr double least_left = 0.1;
-  const Eigen::LDLT<Eigen::MatrixXd> meat(j.rough_meat(variance));
+  const Eigen::LDLT<Eigen::MatrixXd> meat(j.rough_meat(times_counts(variance, count)));
   const Eigen::MatrixXd factor = meat.matrixL();
   const Eigen::MatrixXd root =
       j.root() * (meat.transpositionsP().transpose() * factor) * meat.vectorD().cwiseMax(0.0).cwiseSqrt().asDiagonal();
@@ -107,7 +107,8 @@ void set_squares(const JointJacobian& j, const std::vector<Eigen::VectorXd>& res
     const Eigen::VectorXd taken = j.variances_by(c, root);
     Sample& s = samples[c];
     set_squares_left({residuals[c].data(), variance[c].data(), taken.data(), static_cast<std::size_t>(taken.size())},
-                     least_left, s.leverage.data(), s.square.data());
+                     least_left, s.own_leverage.data(), s.square.data());
+    s.leverage = count.size() > 0 ? (s.own_leverage * count).eval() : s.own_leverage;
   }
 }
 
@@ -156,33 +157,44 @@ bool states_uncertainties(const Problem& problem) noexcept {
 }
 
 ResidualNoise residual_noise(const Problem& problem, const Linearisation& l,
-                             const std::vector<Eigen::VectorXd>& residuals, const JointJacobian& j) {
+                             const std::vector<Eigen::VectorXd>& residuals, const JointJacobian& j,
+                             const Eigen::ArrayXd& count) {
   std::vector<Sample> samples;
-  ResidualNoise out;
+  std::vector<Eigen::VectorXd> variance;
   for (std::size_t c = 0; c < residuals.size(); ++c) {
-    samples.push_back(
-        sample_of(residual_by_value(problem, l, c), problem.channels[c].value, residuals[c], j.leverages(c)));
-    out.variance.emplace_back(residuals[c].cwiseAbs2());
+    Sample& s =
+        samples.emplace_back(sample_of(residual_by_value(problem, l, c), problem.channels[c].value, residuals[c]));
+    s.own_leverage = (s.first > 0.0).select(j.leverages(c).array(), 0.0);
+    s.square.resize(s.first.size());
+    variance.emplace_back(residuals[c].cwiseAbs2());
   }
+  ResidualNoise out;
   constexpr int rounds = 3;  // the first supposes the residuals' own squares
   for (int round = 0; round < rounds; ++round) {
-    set_squares(j, residuals, out.variance, samples);
+    set_squares(j, residuals, variance, count, samples);
     const Noise common = noise_of(samples);
     out.holds = true;
+    out.noise.clear();
     for (std::size_t c = 0; c < samples.size(); ++c) {
       const Noise noise = agreement(samples[c], common).holds(2.5, 0.05) ? common : noise_of({&samples[c], 1});
-      out.variance[c] = samples[c].variance(noise);
+      variance[c] = samples[c].variance(noise);
       out.holds = out.holds && agreement(samples[c], noise).holds(4.0, 0.1);
+      out.noise.push_back(noise);
     }
-    double leverage = 0.0;
-    double leverage2 = 0.0;
-    for (const Sample& own : samples) {
-      leverage += own.leverage.sum();
-      leverage2 += own.leverage.square().sum();
-    }
-    out.freedom = leverage2 > 0.0 ? leverage * leverage / leverage2 : 1.0;
   }
+  double leverage = 0.0;
+  double leverage2 = 0.0;
+  for (const Sample& own : samples) {
+    leverage += own.leverage.sum();
+    leverage2 += own.leverage.square().sum();
+  }
+  out.freedom = leverage2 > 0.0 ? leverage * leverage / leverage2 : 1.0;
   return out;
+}
+
+Eigen::VectorXd variance_by(const Noise& noise, const Problem& problem, const Linearisation& l,
+                            const Eigen::VectorXd& residuals, std::size_t channel) {
+  return sample_of(residual_by_value(problem, l, channel), problem.channels[channel].value, residuals).variance(noise);
 }
 
 }  // namespace goniofit

@@ -25,13 +25,18 @@ namespace goniofit {
 /// channel does not contradict that, else its own. Readings count by their leverages: hundreds of them tell the noise
 /// of the few that decide a lobe.
 struct ResidualNoise {
-  std::vector<Eigen::VectorXd> variance;  ///< of the residuals, one vector a channel
-  double freedom = 1.0;                   ///< (sum of the leverages)² over the sum of their squares
+  std::vector<Noise> noise;  ///< one a channel
+  double freedom = 1.0;      ///< (sum of the leverages)² over the sum of their squares
   /// Whether residuals are no other than such noise: the mean of their squares over what that noise leaves of it,
   /// weighted by leverage, is 1 within four standard deviations and a tenth, in every channel.
   bool holds = true;
 };
+/// From the rows that `j` has, l's; each stands for `count` of them, where there are counts.
 [[nodiscard]] ResidualNoise residual_noise(const Problem& problem, const Linearisation& l,
-                                           const std::vector<Eigen::VectorXd>& residuals, const JointJacobian& j);
+                                           const std::vector<Eigen::VectorXd>& residuals, const JointJacobian& j,
+                                           const Eigen::ArrayXd& count);
+/// Of a channel's residuals.
+[[nodiscard]] Eigen::VectorXd variance_by(const Noise& noise, const Problem& problem, const Linearisation& l,
+                                          const Eigen::VectorXd& residuals, std::size_t channel);
 
 }  // namespace goniofit

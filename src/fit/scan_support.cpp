@@ -18,6 +18,18 @@ constexpr double sds_to_show = 2.0;
 
 double theta_deg(double cosine) { return degrees(std::acos(std::clamp(cosine, -1.0, 1.0))); }
 
+// The largest angle of the readings' cosines.
+template <class Cosine>
+double reach_deg(const Problem& problem, const Cosine& cosine) {
+  double least = 1.0;
+  std::size_t reading = 0;
+  problem.for_each_pairs([&](const PairBatch& run) {
+    for (std::size_t i = 0; i < run.size() && reading < problem.readings(); ++i, ++reading)
+      least = std::min(least, cosine(run, i));
+  });
+  return theta_deg(least);
+}
+
 // What k_fs = 1 adds to a reading, and what the diffuse effects give there, 1/sr.
 struct Shown {
   double fs = 0.0, diffuse = 0.0;
@@ -41,7 +53,7 @@ Shown shown_at(const Problem& problem, const FitPoint& point, std::size_t channe
 }
 
 // The least theta, of both directions, at which a single reading shows k_fs = 1 in some channel.
-std::optional<double> fs_onset_deg(const Problem& problem, const FitPoint& point, const ReadingNoise& noise) {
+std::optional<double> fs_onset_deg(const Problem& problem, const FitPoint& point, const NoiseModel& noise) {
   for (double theta = 5.0; theta < 90.0; theta += 5.0) {
     const Pair pair = make_pair(in_plane(theta, theta));
     for (std::size_t c = 0; c < problem.channels.size(); ++c) {
@@ -73,12 +85,10 @@ std::vector<std::size_t> opaque_channels(const Problem& problem) {
   return out;
 }
 
-std::string missing_for_fs(const Problem& problem, const FitPoint& point, const ReadingNoise& noise) {
-  double reach = 0.0;
-  for (std::size_t i = 0; i < problem.readings(); ++i) {
-    const Pair p = problem.pairs[i];
-    if (p.forward) reach = std::max(reach, theta_deg(std::max(p.cos_i, p.cos_r)));
-  }
+std::string missing_for_fs(const Problem& problem, const FitPoint& point, const NoiseModel& noise) {
+  const double reach = reach_deg(problem, [](const PairBatch& pairs, std::size_t i) {
+    return pairs.forward[i] > 0.0 ? std::max(pairs.cos_i[i], pairs.cos_r[i]) : 1.0;
+  });
   if (reach >= enough_for_fs_deg) return {};
   std::string text = fmt::format("no forward reading has theta_i and theta_r both above {:.3g}°", reach);
   const std::optional<double> onset = fs_onset_deg(problem, point, noise);
@@ -88,10 +98,8 @@ std::string missing_for_fs(const Problem& problem, const FitPoint& point, const 
 }
 
 std::string missing_for_uds(const Problem& problem) {
-  double reach = 0.0;
-  for (std::size_t i = 0; i < problem.readings(); ++i) {
-    reach = std::max({reach, theta_deg(problem.pairs.cos_i[i]), theta_deg(problem.pairs.cos_r[i])});
-  }
+  const double reach = reach_deg(
+      problem, [](const PairBatch& pairs, std::size_t i) { return std::min(pairs.cos_i[i], pairs.cos_r[i]); });
   if (reach >= enough_for_uds_deg) return {};
   return fmt::format("no theta beyond {:.3g}° was measured, where alone they differ", reach);
 }

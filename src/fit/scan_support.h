@@ -17,7 +17,7 @@ namespace goniofit {
 
 /// "no forward reading has theta_i and theta_r both above 45°, and a single reading shows k_fs = 1 above the noise only
 /// from about 70° on"; the best lit channel speaks. Empty where the scan has what fs needs.
-[[nodiscard]] std::string missing_for_fs(const Problem& problem, const FitPoint& point, const ReadingNoise& noise);
+[[nodiscard]] std::string missing_for_fs(const Problem& problem, const FitPoint& point, const NoiseModel& noise);
 /// What the scan lacks to tell udf from uds; empty where it reaches grazing.
 [[nodiscard]] std::string missing_for_uds(const Problem& problem);
 

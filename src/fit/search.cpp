@@ -4,6 +4,7 @@
 #include <boost/math/tools/minima.hpp>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 #include <utility>
 
 #include "fit/profile.h"
@@ -220,15 +221,34 @@ SearchOutcome Search::run(std::size_t most) {
   return outcome;
 }
 
-}  // namespace
-
-SearchOutcome search(const Problem& problem, std::size_t most, bool all_readings) {
-  if (problem.shape.free > 0) return Search(problem, all_readings ? RowSelection{} : searched_rows(problem)).run(most);
-  Profile profile(problem);
+SearchOutcome search_rows(const Problem& problem, RowSelection selection, std::size_t most) {
+  if (problem.shape.free > 0) return Search(problem, std::move(selection)).run(most);
+  const bool thinned = !selection.all();
+  Profile profile(problem, std::move(selection));
   SearchOutcome outcome;
   outcome.minima.push_back(profile.point(nullptr));
   outcome.evaluations = profile.evaluations();
+  outcome.thinned = thinned;
   return outcome;
+}
+
+std::vector<std::size_t> first_numbers(std::size_t count) {
+  std::vector<std::size_t> numbers(count);
+  std::iota(numbers.begin(), numbers.end(), std::size_t{0});
+  return numbers;
+}
+
+}  // namespace
+
+SearchOutcome search(const Problem& problem, std::size_t most, bool all_readings) {
+  if (!problem.by_parts()) {
+    const bool all = all_readings || problem.shape.free == 0;
+    return search_rows(problem, all ? RowSelection{} : searched_rows(problem), most);
+  }
+  // All readings in one piece: it is seldom that some of them do not tell, and then the answer is worth the memory.
+  if (all_readings) return search_rows(problem.part(first_numbers(problem.readings())), {}, most);
+  const RowSelection& drawn = problem.drawn;
+  return search_rows(problem.part(drawn.rows), {first_numbers(drawn.rows.size()), drawn.factor}, most);
 }
 
 }  // namespace goniofit

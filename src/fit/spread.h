@@ -41,15 +41,17 @@ struct Spread {
   std::vector<bool> single;
 };
 
-/// `sd`: of the residuals, one vector a channel; so are `residuals` and `variance`, an estimate of their noise. k only
-/// of the parameters asked for.
-[[nodiscard]] Spread spread_by_readings(const JointJacobian& j, const std::vector<Eigen::VectorXd>& sd);
-[[nodiscard]] Spread spread_by_residuals(const JointJacobian& j, const std::vector<Eigen::VectorXd>& residuals,
-                                         const std::vector<Eigen::VectorXd>& variance,
-                                         const std::vector<Eigen::Index>& parameters);
-[[nodiscard]] Spread spread_by_noise(const JointJacobian& j, const std::vector<Eigen::VectorXd>& variance,
-                                     double freedom);
-/// At least two groups.
+/// `meat` is the Meat of the residuals' standard deviations.
+[[nodiscard]] Spread spread_by_meat(const JointJacobian& j, const Meat& meat);
+[[nodiscard]] Spread spread_by_noise(const JointJacobian& j, const Meat& meat, double freedom);
+/// Of readings that each determine a parameter by themselves, the parameters; the others' e = r / (1 - leverage), whose
+/// Meat gives HC3's covariance, one vector a channel as `residuals`. `j` and all of these are of some rows.
+struct LeftOut {
+  std::vector<Eigen::VectorXd> e;
+  std::vector<bool> single;
+};
+[[nodiscard]] LeftOut left_out_residuals(const JointJacobian& j, const std::vector<Eigen::VectorXd>& residuals);
+/// At least two groups; j with all rows.
 [[nodiscard]] Spread spread_by_angles(const JointJacobian& j, const std::vector<Eigen::VectorXd>& residuals,
                                       const AngleGroups& groups);
 

@@ -107,19 +107,24 @@ double SignedForm::factor(double probability) const {
 }
 
 // K by JᵀΩJ, not by triangles as the covariances: of a probability three digits are enough.
-Studentised::Studentised(const JointJacobian& j, const std::vector<Eigen::VectorXd>& leverage,
-                         const std::vector<Eigen::VectorXd>& variance, const std::vector<Eigen::Index>& parameters)
-    : j_(j), variance_(variance), parameters_(parameters), meat_(j.rough_meat(variance)) {
+Studentised::Studentised(const JointJacobian& j, const std::vector<Eigen::VectorXd>& variance,
+                         const Eigen::ArrayXd& count, const std::vector<Eigen::Index>& parameters)
+    : j_(j),
+      variance_(variance),
+      count_(count),
+      parameters_(parameters),
+      meat_(j.rough_meat(times_counts(variance, count))) {
   const Eigen::MatrixXd rows = j.root()(parameters, Eigen::all);
   truth_ = (rows * meat_).cwiseProduct(rows).rowwise().sum();
   mean_ = squares_ = Eigen::VectorXd::Zero(rows.rows());
-  for (std::size_t c = 0; c < variance.size(); ++c) add(c, leverage[c]);
+  for (std::size_t c = 0; c < variance.size(); ++c) add(c);
 }
 
 // In a channel the estimates of other channels' parameters enter through the shape alone: nearly all are the multiples
 // of one, and share what it takes the readings' time to sum.
-void Studentised::add(std::size_t c, const Eigen::VectorXd& leverage) {
+void Studentised::add(std::size_t c) {
   const JacobianBlock& block = j_.blocks()[c];
+  const Eigen::VectorXd leverage = j_.leverages(c);
   const Eigen::MatrixXd own = j_.own_root(c);
   const Eigen::MatrixXd in_own = own * meat_ * own.transpose();
   Eigen::ArrayXd in_fit = Eigen::ArrayXd::Zero(block.rows());
@@ -154,6 +159,10 @@ Studentised::Direction Studentised::direction_of(std::size_t c, const Eigen::Vec
                                                  const Eigen::ArrayXd& factor) const {
   const Eigen::ArrayXd parts = j_.blocks()[c].times(by).array().square() * factor;
   Direction out{by, parts.sum(), parts.matrix().squaredNorm(), {}};
+  if (count_.size() > 0) {
+    out.mean = (count_ * parts).sum();
+    out.squares = (count_ * parts.square()).sum();
+  }
   const auto more = [](const Reading& a, const Reading& b) { return a.part > b.part; };
   // The largest, in a heap whose front is the least of them; of equal ones the first stay.
   for (Eigen::Index i = 0; i < parts.size(); ++i) {

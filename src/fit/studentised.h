@@ -48,9 +48,10 @@ class SignedForm {
 
 class Studentised {
  public:
-  /// Leverages, and variances of the noise of the residuals, one vector a channel; of the parameters asked for.
-  Studentised(const JointJacobian& j, const std::vector<Eigen::VectorXd>& leverage,
-              const std::vector<Eigen::VectorXd>& variance, const std::vector<Eigen::Index>& parameters);
+  /// Variances of the noise of the residuals, one vector a channel, of the rows that `j` has; of the parameters asked
+  /// for. Each row stands for `count` of them, where there are counts.
+  Studentised(const JointJacobian& j, const std::vector<Eigen::VectorXd>& variance, const Eigen::ArrayXd& count,
+              const std::vector<Eigen::Index>& parameters);
   /// k at which value ± k u has the probability.
   struct Factors {
     double at_68, at_95;
@@ -75,7 +76,7 @@ class Studentised {
     std::size_t direction;
     double square;
   };
-  void add(std::size_t channel, const Eigen::VectorXd& leverage);
+  void add(std::size_t channel);
   [[nodiscard]] static Share share_of(const Eigen::VectorXd& by, const std::vector<Direction>& directions);
   [[nodiscard]] Direction direction_of(std::size_t channel, const Eigen::VectorXd& by,
                                        const Eigen::ArrayXd& factor) const;
@@ -84,6 +85,7 @@ class Studentised {
 
   const JointJacobian& j_;
   const std::vector<Eigen::VectorXd>& variance_;
+  const Eigen::ArrayXd& count_;
   const std::vector<Eigen::Index>& parameters_;
   Eigen::MatrixXd meat_;                            ///< K
   Eigen::VectorXd truth_, mean_, squares_;          ///< V; Σ x_i S_ii; Σ (x_i S_ii)²

@@ -26,7 +26,7 @@ double signal2(const Problem& problem, std::size_t row) {
   const auto i = static_cast<Eigen::Index>(row);
   double sum = 0.0;
   for (const ProblemChannel& c : problem.channels) {
-    const double own = c.target[i] * (c.emphasis.size() > 0 ? c.emphasis[i] : 1.0);
+    const double own = problem.weight[i] * c.value[i] * (c.emphasis.size() > 0 ? c.emphasis[i] : 1.0);
     sum += own * own;
   }
   return sum;
@@ -68,11 +68,14 @@ RowSelection searched_rows(const Problem& problem) {
   constexpr std::uint8_t own = mirror_steps * grazing_steps;
   std::vector<std::uint8_t> stratum(problem.readings());
   std::array<std::size_t, own> members{};
-  for (std::size_t i = 0; i < stratum.size(); ++i) {
-    const bool rules = signal2(problem, i) > own_part * problem.total;
-    stratum[i] = rules ? own : static_cast<std::uint8_t>(stratum_of(problem.pairs, i));
-    if (!rules) ++members[stratum[i]];
-  }
+  std::size_t reading = 0;
+  problem.for_each_pairs([&](const PairBatch& run) {
+    for (std::size_t i = 0; i < run.size() && reading < stratum.size(); ++i, ++reading) {
+      const bool rules = signal2(problem, reading) > own_part * problem.total;
+      stratum[reading] = rules ? own : static_cast<std::uint8_t>(stratum_of(run, i));
+      if (!rules) ++members[stratum[reading]];
+    }
+  });
   std::vector<Draw> draws;
   for (const std::size_t count : members) draws.emplace_back(count);
   RowSelection out;

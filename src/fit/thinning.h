@@ -7,21 +7,13 @@
 // evenly along the scan within each, with weights so that sums over the readings drawn estimate those over all.
 
 #include <cstddef>
-#include <vector>
 
 #include "problem.h"
 
 namespace goniofit {
 
-struct RowSelection {
-  std::vector<std::size_t> rows{};  ///< ascending
-  std::vector<double> factor{};     ///< of each one's residual: the square root of the readings that it stands for
-
-  [[nodiscard]] bool all() const noexcept { return rows.empty(); }
-};
-
 /// All for scans of up to that many readings, and under losses that are not quadratic in the model.
-inline constexpr std::size_t most_searched = 100000;
+inline constexpr std::size_t most_searched = most_held;
 /// Deterministic. Reflectances stay.
 [[nodiscard]] RowSelection searched_rows(const Problem& problem);
 

@@ -8,6 +8,7 @@
 #include "fit/cross_validation.h"
 #include "fit/joint_jacobian.h"
 #include "fit/reading_noise.h"
+#include "fit/studentised.h"
 
 namespace goniofit {
 
@@ -25,29 +26,29 @@ ParameterState state_at(double value, double lower, double upper, double column2
   return ParameterState::free;
 }
 
-void find_states(const Problem& problem, const FitPoint& point, const Linearisation& l, Uncertainties& out) {
+void find_states(const Problem& problem, const FitPoint& point, const LinearSums& sums, Uncertainties& out) {
   // A change of the shape by a factor e that alters the whole scan by less than the residual of one reading: nobody
   // could tell it from no change. Noise-free scans have no residual; what they hold is then known to 1e-8 of their
   // signal.
-  const double noise2 = std::max(l.loss, 1e-16 * problem.total) / static_cast<double>(problem.values_used());
+  const double noise2 = std::max(sums.loss, 1e-16 * problem.total) / static_cast<double>(problem.values_used());
   const auto add = [](std::vector<ParameterUncertainty>& to, ParameterState state) {
     to.push_back({.state = state, .u = no_uncertainty});
   };
   for (std::size_t z = 0; z < point.z.size(); ++z) {
     double column2 = 0.0;
-    for (const Eigen::MatrixXd& shape : l.by_shape) column2 += shape.col(static_cast<Eigen::Index>(z)).squaredNorm();
+    for (const Eigen::MatrixXd& all : sums.triangles) column2 += all.col(static_cast<Eigen::Index>(z)).squaredNorm();
     add(out.shape, state_at(point.z[z], problem.shape.lower[z], problem.shape.upper[z], column2, noise2));
   }
   for (std::size_t c = 0; c < problem.channels.size(); ++c) {
     const ProblemChannel& channel = problem.channels[c];
     std::vector<ParameterUncertainty>& row = out.coefficients.emplace_back();
     for (Eigen::Index j = 0; j < channel.lower.size(); ++j) {
-      const double column2 = l.by_coefficient[c].col(j).squaredNorm();
+      const double column2 = sums.triangles[c].col(problem.shape.free + j).squaredNorm();
       add(row, state_at(point.coefficients[c][j], channel.lower[j], channel.upper[j], column2, 0.0));
     }
     if (point.optics.empty()) continue;
-    add(out.optics,
-        state_at(point.optics[c], channel.optics_lower, channel.optics_upper, l.by_optics[c].squaredNorm(), 0.0));
+    const double column2 = sums.triangles[c].col(problem.shape.free + channel.lower.size()).squaredNorm();
+    add(out.optics, state_at(point.optics[c], channel.optics_lower, channel.optics_upper, column2, 0.0));
   }
 }
 
@@ -89,41 +90,133 @@ std::vector<Eigen::VectorXd> by_channel(const Problem& problem, const F& f) {
   return out;
 }
 
+// Rows of the linearised problem over some of its parameters.
+struct Rows {
+  const Problem& problem;
+  const Linearisation& l;
+  const JointJacobian& j;
+  const std::vector<Eigen::VectorXd>& residuals;
+};
+
+// A linearised problem over some of its parameters, these moved by a step; an empty one is none.
+struct Linear {
+  const LinearParts& parts;
+  const JointJacobian& j;
+  Eigen::VectorXd step{};
+
+  // Calls f(Rows).
+  template <class F>
+  void with_rows(const Problem& problem, const Linearisation& l, const F& f) const {
+    const JointJacobian own = j.with_rows(l);
+    if (step.size() == 0) return f(Rows{problem, l, own, l.residuals});
+    std::vector<Eigen::VectorXd> residuals = l.residuals;
+    for (std::size_t c = 0; c < residuals.size(); ++c)
+      residuals[c] += own.blocks()[c].times(step(own.blocks()[c].index()));
+    f(Rows{problem, l, own, residuals});
+  }
+  template <class F>
+  void for_each(const F& f) const {
+    parts.for_each([&](const Problem& part, const Linearisation& l) { with_rows(part, l, f); });
+  }
+  // The Meat of e(Rows, channel).
+  template <class E>
+  [[nodiscard]] Meat meat(const E& e) const {
+    Meat out(parts.problem().channels.size());
+    for_each([&](const Rows& rows) {
+      out.add(rows.j, by_channel(rows.problem, [&](std::size_t c) { return e(rows, c); }));
+    });
+    return out;
+  }
+};
+
 // A robust kernel's reweighting overstates what the readings say by the share of the kernel's curvature.
-Spread without_reweighting(Spread spread, const Linearisation& l) {
-  spread.covariance /= l.kernel_share * l.kernel_share;
+Spread without_reweighting(Spread spread, double kernel_share) {
+  spread.covariance /= kernel_share * kernel_share;
   return spread;
 }
 
-Spread spread_of_readings(const Problem& problem, const Linearisation& l, const JointJacobian& j) {
-  return without_reweighting(
-      spread_by_readings(j, by_channel(problem, [&](std::size_t c) { return reading_sd(problem, l, c); })), l);
+Spread spread_of_readings(const Linear& linear) {
+  return spread_by_meat(
+      linear.j, linear.meat([](const Rows& rows, std::size_t c) { return reading_sd(rows.problem, rows.l, c); }));
+}
+
+Spread spread_of_angles(const Linear& linear) {
+  Spread out;
+  linear.for_each(
+      [&](const Rows& rows) { out = spread_by_angles(rows.j, rows.residuals, angle_groups(rows.problem)); });
+  return out;
+}
+
+Eigen::ArrayXd counts_of(const std::vector<double>& factor) {
+  return Eigen::Map<const Eigen::ArrayXd>(factor.data(), static_cast<Eigen::Index>(factor.size())).square();
+}
+
+std::vector<Eigen::VectorXd> variances(const Rows& rows, const ResidualNoise& noise) {
+  return by_channel(rows.problem, [&](std::size_t c) {
+    return variance_by(noise.noise[c], rows.problem, rows.l, rows.residuals[c], c);
+  });
+}
+
+Spread hc3_spread(const Linear& linear, const ResidualNoise& noise, const std::vector<Eigen::Index>& parameters) {
+  const auto size = static_cast<std::size_t>(linear.j.size());
+  Meat meat(linear.parts.problem().channels.size());
+  std::vector<bool> single(size, false);
+  linear.for_each([&](const Rows& rows) {
+    const LeftOut out = left_out_residuals(rows.j, rows.residuals);
+    meat.add(rows.j, out.e);
+    for (std::size_t i = 0; i < size; ++i) single[i] = single[i] || out.single[i];
+  });
+  Spread out = spread_by_meat(linear.j, meat);
+  out.single = std::move(single);
+  linear.parts.visit_drawn([&](const Problem& part, const Linearisation& l, const std::vector<double>& factor) {
+    linear.with_rows(part, l, [&](const Rows& rows) {
+      const std::vector<Eigen::VectorXd> variance = variances(rows, noise);
+      const Eigen::ArrayXd counts = counts_of(factor);
+      const Studentised studentised(rows.j, variance, counts, parameters);
+      for (std::size_t i = 0; i < parameters.size(); ++i) {
+        const Studentised::Factors k = studentised.factors(i);
+        out.k[static_cast<std::size_t>(parameters[i])] = {k.at_68, k.at_95};
+      }
+    });
+  });
+  return out;
+}
+
+Spread noise_spread(const Linear& linear, const ResidualNoise& noise) {
+  const Meat meat = linear.meat([&](const Rows& rows, std::size_t c) {
+    return variance_by(noise.noise[c], rows.problem, rows.l, rows.residuals[c], c).cwiseSqrt().eval();
+  });
+  return spread_by_noise(linear.j, meat, noise.freedom);
 }
 
 // Of the parameters asked for; says what it is by.
-Spread spread_of(const Problem& problem, const Linearisation& l, const JointJacobian& j,
-                 const std::vector<Eigen::VectorXd>& residuals, const std::vector<Eigen::Index>& parameters,
-                 UncertaintySource& source) {
-  switch (problem.uncertainty) {
-    case UncertaintySource::readings:
-      return spread_of_readings(problem, l, j);
-    case UncertaintySource::angles:
-      return without_reweighting(spread_by_angles(j, residuals, angle_groups(problem)), l);
-    case UncertaintySource::residuals:
-    case UncertaintySource::hc3:
-      break;
-  }
-  const ResidualNoise noise = residual_noise(problem, l, residuals, j);
-  if (problem.uncertainty == UncertaintySource::residuals && noise.holds) {
-    return without_reweighting(spread_by_noise(j, noise.variance, noise.freedom), l);
-  }
+Spread spread_of(const Linear& linear, const std::vector<Eigen::Index>& parameters, UncertaintySource& source) {
+  const UncertaintySource asked = linear.parts.problem().uncertainty;
+  if (asked == UncertaintySource::readings) return spread_of_readings(linear);
+  if (asked == UncertaintySource::angles) return spread_of_angles(linear);
+  ResidualNoise noise;
+  linear.parts.visit_drawn([&](const Problem& part, const Linearisation& l, const std::vector<double>& factor) {
+    linear.with_rows(part, l, [&](const Rows& rows) {
+      noise = residual_noise(rows.problem, rows.l, rows.residuals, rows.j, counts_of(factor));
+    });
+  });
+  if (asked == UncertaintySource::residuals && noise.holds) return noise_spread(linear, noise);
   source = UncertaintySource::hc3;
-  return without_reweighting(spread_by_residuals(j, residuals, noise.variance, parameters), l);
+  return hc3_spread(linear, noise, parameters);
 }
 
-Eigen::VectorXd change_by_scale(const Problem& problem, const Linearisation& l, const JointJacobian& j) {
-  if (problem.scale_u == 0.0) return Eigen::VectorXd::Zero(j.size());
-  return -j.solve(by_channel(problem, [&](std::size_t c) { return residual_by_scale(problem, l, c); }));
+Spread stated_spread(const Linear& linear, const std::vector<Eigen::Index>& parameters, UncertaintySource& source) {
+  return without_reweighting(spread_of(linear, parameters, source), linear.parts.kernel_share());
+}
+
+Eigen::VectorXd change_by_scale(const Linear& linear) {
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(linear.j.size());
+  if (linear.parts.problem().scale_u == 0.0) return sum;
+  linear.for_each([&](const Rows& rows) {
+    sum += rows.j.transposed_times(
+        by_channel(rows.problem, [&](std::size_t c) { return residual_by_scale(rows.problem, rows.l, c); }));
+  });
+  return -linear.j.solve(sum);
 }
 
 // The scale is known as normally distributed: it takes its part of the square out of what is open in `k` (Welch).
@@ -147,38 +240,39 @@ Stated stated(const Spread& spread, Eigen::Index i, double u_scale) {
 }
 
 // Of readings that have a say in the loss.
-double reduced_chi_square(const Problem& problem, const Linearisation& l, Eigen::Index parameters) {
+double reduced_chi_square(const LinearParts& parts, Eigen::Index parameters) {
   double sum = 0.0;
   Eigen::Index count = 0;
-  for (std::size_t c = 0; c < problem.channels.size(); ++c) {
-    const Eigen::VectorXd sd = reading_sd(problem, l, c);
-    for (Eigen::Index i = 0; i < sd.size(); ++i) {
-      if (!(sd[i] > 0.0)) continue;
-      sum += l.residuals[c][i] * l.residuals[c][i] / (sd[i] * sd[i]);
-      ++count;
+  parts.for_each([&](const Problem& part, const Linearisation& l) {
+    for (std::size_t c = 0; c < part.channels.size(); ++c) {
+      const Eigen::VectorXd sd = reading_sd(part, l, c);
+      for (Eigen::Index i = 0; i < sd.size(); ++i) {
+        if (!(sd[i] > 0.0)) continue;
+        sum += l.residuals[c][i] * l.residuals[c][i] / (sd[i] * sd[i]);
+        ++count;
+      }
     }
-  }
+  });
   return count > parameters ? sum / static_cast<double>(count - parameters) : no_uncertainty;
 }
 
 // What the readings' own uncertainties give, whatever is stated.
-void add_readings(const Problem& problem, const Linearisation& l, const JointJacobian& j, const ParameterPlaces& places,
-                  Uncertainties& out) {
-  if (!states_uncertainties(problem)) return;
-  out.covariance_readings = spread_of_readings(problem, l, j).covariance;
-  out.reduced_chi_square = reduced_chi_square(problem, l, places.size);
+void add_readings(const Linear& linear, Uncertainties& out) {
+  if (!states_uncertainties(linear.parts.problem())) return;
+  out.covariance_readings = without_reweighting(spread_of_readings(linear), linear.parts.kernel_share()).covariance;
+  out.reduced_chi_square = reduced_chi_square(linear.parts, linear.j.size());
 }
 
-void add_stated(const Problem& problem, const Linearisation& l, const JointJacobian& j, const ParameterPlaces& places,
-                Uncertainties& out) {
+void add_stated(const Linear& linear, const ParameterPlaces& places, Uncertainties& out) {
+  const Problem& problem = linear.parts.problem();
   const bool by_readings = problem.uncertainty == UncertaintySource::readings;
   const auto size = static_cast<std::size_t>(places.size);
   std::vector<Eigen::Index> all(size);
   std::iota(all.begin(), all.end(), Eigen::Index{0});
   const Spread spread =
       by_readings ? Spread{out.covariance_readings, std::vector<CoverageFactors>(size), std::vector<bool>(size, false)}
-                  : spread_of(problem, l, j, l.residuals, all, out.source);
-  out.by_scale = change_by_scale(problem, l, j);
+                  : stated_spread(linear, all, out.source);
+  out.by_scale = change_by_scale(linear);
   out.covariance = spread.covariance + problem.scale_u * problem.scale_u * out.by_scale * out.by_scale.transpose();
   for_each_place(out, places, [&](ParameterUncertainty& p, Eigen::Index i) {
     p.u_scale = std::fabs(out.by_scale[i]) * problem.scale_u;
@@ -197,38 +291,37 @@ bool points_outward(const ParameterUncertainty& p) {
 
 // Everything on a bound, released. Where these cannot all be told from each other, or some would turn into the interval
 // once others have left theirs, each by itself.
-void release(const Problem& problem, const Linearisation& l, const ParameterPlaces& places, Uncertainties& out) {
-  const JointJacobian j(l, places);
+void release(const LinearParts& parts, const LinearSums& sums, const ParameterPlaces& places, Uncertainties& out) {
+  const Problem& problem = parts.problem();
+  const JointJacobian j(sums, places);
   const bool spare = problem.values_used() > static_cast<std::size_t>(j.size());
   if (j.singular() || (!spare && problem.uncertainty != UncertaintySource::readings)) return;
-  const Eigen::VectorXd step = -j.solve(l.residuals);
-  std::vector<Eigen::VectorXd> residuals = l.residuals;
-  for (std::size_t c = 0; c < residuals.size(); ++c) residuals[c] += j.blocks()[c].times(step(j.blocks()[c].index()));
+  const Linear linear{parts, j, -j.solve(j.gradient(sums))};
   std::vector<Eigen::Index> held;
   for_each_place(out, places, [&held](const ParameterUncertainty& p, Eigen::Index i) {
     if (is_on_bound(p)) held.push_back(i);
   });
   UncertaintySource source = out.source;
-  const Spread spread = spread_of(problem, l, j, residuals, held, source);
-  const Eigen::VectorXd by_scale = change_by_scale(problem, l, j);
+  const Spread spread = stated_spread(linear, held, source);
+  const Eigen::VectorXd by_scale = change_by_scale(linear);
   for_each_place(out, places, [&](ParameterUncertainty& p, Eigen::Index i) {
     if (!is_on_bound(p) || spread.single[static_cast<std::size_t>(i)]) return;
     const Stated s = stated(spread, i, std::fabs(by_scale[i]) * problem.scale_u);
-    p.released = Released{step[i], s.u, s.k};
+    p.released = Released{linear.step[i], s.u, s.k};
   });
 }
 
-void release_bounds(const Problem& problem, const Linearisation& l, Uncertainties& out) {
+void release_bounds(const LinearParts& parts, const LinearSums& sums, Uncertainties& out) {
   const ParameterPlaces all = places_of(out, [](const auto& p) { return is_free(p) || is_on_bound(p); });
   std::vector<ParameterUncertainty*> held;
   for_each_place(out, all, [&held](ParameterUncertainty& p, Eigen::Index) {
     if (is_on_bound(p)) held.push_back(&p);
   });
   if (held.empty()) return;
-  release(problem, l, all, out);
+  release(parts, sums, all, out);
   for (const ParameterUncertainty* one : held) {
     if (one->released && points_outward(*one)) continue;
-    release(problem, l, places_of(out, [one](const auto& p) { return is_free(p) || &p == one; }), out);
+    release(parts, sums, places_of(out, [one](const auto& p) { return is_free(p) || &p == one; }), out);
   }
 }
 
@@ -271,15 +364,21 @@ void set_by_readings(ParameterUncertainty& p, double u, double reduced_chi_squar
 }
 
 Uncertainties uncertainties(const Problem& problem, const FitPoint& point, const Linearisation& l) {
+  const LinearParts parts(problem, point, l);
+  return uncertainties(parts, linear_sums(parts, nullptr));
+}
+
+Uncertainties uncertainties(const LinearParts& parts, const LinearSums& sums) {
+  const Problem& problem = parts.problem();
   Uncertainties out;
   out.source = problem.uncertainty;
-  find_states(problem, point, l, out);
+  find_states(problem, parts.point(), sums, out);
   const ParameterPlaces places = places_of(out, is_free);
   if (places.size == 0) {
-    release_bounds(problem, l, out);
+    release_bounds(parts, sums, out);
     return out;
   }
-  const JointJacobian j(l, places);
+  const JointJacobian j(sums, places);
   if (j.singular()) {
     const std::vector<bool> null = j.in_null_space();
     for_each_place(out, places, [&null](ParameterUncertainty& p, Eigen::Index i) {
@@ -292,11 +391,12 @@ Uncertainties uncertainties(const Problem& problem, const FitPoint& point, const
     p.index = i;
     p.u_unscaled = std::sqrt(out.covariance_unscaled(i, i));
   });
-  add_readings(problem, l, j, places, out);
+  const Linear linear{parts, j};
+  add_readings(linear, out);
   const auto residuals = static_cast<Eigen::Index>(problem.values_used());
   const bool spare = residuals > places.size;
   if (spare) {
-    out.residual_variance = l.loss / static_cast<double>(residuals - places.size);
+    out.residual_variance = sums.loss / static_cast<double>(residuals - places.size);
     out.covariance_classical = out.residual_variance * out.covariance_unscaled;
     for_each_place(out, places, [&out](ParameterUncertainty& p, Eigen::Index i) {
       p.u_classical = std::sqrt(out.covariance_classical(i, i));
@@ -304,8 +404,8 @@ Uncertainties uncertainties(const Problem& problem, const FitPoint& point, const
   } else if (problem.uncertainty != UncertaintySource::readings) {
     return out;
   }
-  add_stated(problem, l, j, places, out);
-  release_bounds(problem, l, out);
+  add_stated(linear, places, out);
+  release_bounds(parts, sums, out);
   return out;
 }
 

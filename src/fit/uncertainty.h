@@ -15,6 +15,9 @@
 // An error of the instrument's scale, of relative standard uncertainty u_s and common to all readings, moves the
 // parameters together by g u_s, g = -(JᵀJ)⁻¹ Jᵀ dr/dln y: all covariances stated have g gᵀ u_s² added.
 //
+// Of a problem by parts all of these are sums over every reading. What the residuals' noise is, and how far intervals
+// reach, is told from the readings drawn to stand for all (thinning.h).
+//
 // Parameters that are fixed or on a bound are left out; what is stated for the others holds with those where they are.
 // For one on a bound there is instead what the linearised problem gives with all of them released: the unconstrained
 // estimate, beyond the bound, and its standard uncertainty, from which follows a one-sided interval.
@@ -25,6 +28,7 @@
 #include <optional>
 #include <vector>
 
+#include "linear_parts.h"
 #include "model.h"
 #include "problem.h"
 #include "spread.h"
@@ -80,6 +84,8 @@ struct Uncertainties {
 /// Sets what the readings' uncertainties give of a parameter, `u` without the scale's part, which has to be there.
 void set_by_readings(ParameterUncertainty& p, double u, double reduced_chi_square);
 
+[[nodiscard]] Uncertainties uncertainties(const LinearParts& parts, const LinearSums& sums);
+/// Of a problem in one piece.
 [[nodiscard]] Uncertainties uncertainties(const Problem& problem, const FitPoint& point, const Linearisation& l);
 
 }  // namespace goniofit

@@ -9,15 +9,33 @@
 
 namespace goniofit {
 
-struct ReadingNoise {
-  std::vector<Eigen::VectorXd> sd;  ///< of each reading, 1/sr; one vector a channel
-  std::vector<Noise> model;         ///< the same as a part of the value and an additive one
-  /// 1 / sd in the unit of the residuals: weight and emphasis divided out. One vector a channel.
-  std::vector<Eigen::VectorXd> whitener;
+/// As a part of the value and an additive one; where the scan states uncertainties, by these.
+struct NoiseModel {
+  std::vector<Noise> model{};  ///< one a channel
+  /// What the residuals exceed the stated uncertainties by (the median's Birge ratio); 0 where none are stated.
+  std::vector<double> birge_ratio{};
+  double least = 0.0;  ///< 1/sr, of any reading
 };
 
-/// The scan's own uncertainties where it states them, enlarged by what the residuals exceed them by (the median's
-/// Birge ratio); else estimate_noise() of the residuals, from at most a thousand readings a channel.
+/// Of each reading of one channel.
+struct RowNoise {
+  Eigen::VectorXd sd;        ///< 1/sr
+  Eigen::VectorXd whitener;  ///< 1 / sd in the unit of the residuals: weight and emphasis divided out
+};
+
+/// Of all readings, one vector a channel.
+struct ReadingNoise : NoiseModel {
+  std::vector<Eigen::VectorXd> sd{}, whitener{};
+};
+
+/// The readings, at most a thousand and evenly along the scan, that the noise is told from.
+[[nodiscard]] std::vector<std::size_t> rows_that_tell_noise(const Problem& problem);
+/// The scan's own uncertainties where it states them, enlarged by their Birge ratio; else estimate_noise() of the
+/// residuals. `l` is of `some`, a part of the problem or all of it.
+[[nodiscard]] NoiseModel noise_model(const Problem& problem, const Problem& some, const Linearisation& l);
+[[nodiscard]] RowNoise noise_of_rows(const Problem& part, const Linearisation& l, const NoiseModel& noise,
+                                     std::size_t channel);
+/// Of a problem in one piece.
 [[nodiscard]] ReadingNoise reading_noise(const Problem& problem, const Linearisation& l);
 
 /// Derivatives of one channel's whitened residuals by all shape parameters, its coefficients and, where it is free, its

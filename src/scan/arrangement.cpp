@@ -69,6 +69,7 @@ void for_each_run(const std::vector<KeyedRow>& keyed, unsigned open, const F& f)
 
 RowGroups grouped(const std::vector<KeyedRow>& keyed, unsigned open, std::size_t fewest) {
   RowGroups out;
+  if (fewest == 1) out.rows.reserve(keyed.size());
   for_each_run(keyed, open, [&](std::size_t first, std::size_t end) {
     if (end - first < fewest) return;
     for (std::size_t i = first; i < end; ++i) out.rows.push_back(keyed[i].row);

@@ -33,7 +33,8 @@ struct Fitted {
         point(solve(problem).best.point),
         l(linearise(problem, point)),
         noise(reading_noise(problem, l)) {}
-  [[nodiscard]] Identifiability identifiability() const { return identify(problem, point, l, noise); }
+  [[nodiscard]] LinearSums sums() const { return linear_sums(LinearParts(problem, point, l), &noise); }
+  [[nodiscard]] Identifiability identifiability() const { return identify(problem, point, sums()); }
 };
 
 TEST(Identifiability, SingularValuesAreThoseOfTheWhitenedJacobian) {
@@ -125,7 +126,7 @@ TEST(LobeSignificance, DroppingALobeCostsItsSquaredSignificance) {
   truth.channels.resize(1);
   truth.channels[0].coefficient(Coefficient::k_dd) = 0.02;
   const Fitted f(simulate(truth, Sampling::hemisphere, {0.02, 0.0}, 1), of(truth.components));
-  const LobeTest test = test_lobes(f.problem, f.point, f.l, f.noise);
+  const LobeTest test = test_lobes(f.problem, f.point, f.sums());
   EXPECT_TRUE(test.significant);
   // Given the slope one coefficient is left, whose square over its variance it is.
   const Eigen::MatrixXd j = f.noise.whitener[0].asDiagonal() * f.l.by_coefficient[0];
@@ -142,7 +143,7 @@ TEST(LobeSignificance, WhatTheSettingsDemandIsNotTested) {
   FitSettings s = of({Effect::dd, Effect::udf});
   s.parameters["k_dd"].value = 0.1;
   const Fitted f(simulate(truth, Sampling::incidence_plane, {0.02, 0.0}, 1), s);
-  EXPECT_TRUE(test_lobes(f.problem, f.point, f.l, f.noise).significant);
+  EXPECT_TRUE(test_lobes(f.problem, f.point, f.sums()).significant);
 }
 
 }  // namespace

@@ -133,10 +133,11 @@ TEST(FittedValues, AreTheMaterials) {
     ASSERT_TRUE(own);
     const std::vector<double> values = Evaluator(r.material).values(problem.pairs);
     const std::vector<double> u = value_uncertainties(r.material, problem.pairs, values);
-    ASSERT_EQ(own->fitted.size(), values.size());
+    const std::size_t channels = problem.channels.size();
+    ASSERT_EQ(own->fitted.size(), channels);
     for (std::size_t i = 0; i < values.size(); ++i) {
-      EXPECT_NEAR(own->fitted[i], values[i], 1e-9 * values[i]) << i;
-      EXPECT_NEAR(own->open[i], u[i], 1e-6 * u[i] + 1e-9 * values[i]) << i;
+      EXPECT_NEAR(own->fitted[i % channels][i / channels], values[i], 1e-9 * values[i]) << i;
+      EXPECT_NEAR(own->open[i % channels][i / channels], u[i], 1e-6 * u[i] + 1e-9 * values[i]) << i;
     }
   }
 }

@@ -15,6 +15,7 @@
 #include "cli/outputs.h"
 #include "cost/planner.h"
 #include "io/material_io.h"
+#include "io/number.h"
 #include "io/scan_reader.h"
 #include "render/scene_plan_report.h"
 #include "render/scene_reader.h"

@@ -9,8 +9,8 @@
 namespace goniofit::test {
 namespace {
 
-const std::vector<std::string> commands{"inspect",  "fit",  "compare", "simulate", "eval",   "verify",
-                                        "tradeoff", "plan", "export",  "report",   "curves", "models"};
+const std::vector<std::string> commands{"inspect", "fit",    "compare", "simulate", "eval",   "verify", "tradeoff",
+                                        "plan",    "export", "render",  "report",   "curves", "models"};
 
 TEST(Help, NamesEveryCommand) {
   const Outcome help = goniofit({"--help"});

@@ -241,9 +241,55 @@ plots() {
   schlick
 }
 
+# spheres NAME ANGLE MATERIAL... [FLAG...]: side by side under a small lamp, ANGLE degrees away from the eye.
+spheres_of() {
+  local name=$1 angle=$2
+  shift 2
+  "$goniofit" render "$@" --light-angle "$angle" --size 180 --samples 32 --quiet -o "$out/$name.png" >/dev/null
+}
+
+# peers SAMPLE N: the sample's scan fitted with other models; that a model does not describe it (status 1) is the point.
+peers() {
+  local sample=$1 n=$2 model
+  for model in lambert lafortune-1 ward cook-torrance; do
+    local flags=(--model "$model")
+    [[ $model == cook-torrance ]] && flags+=(--n "$n")
+    "$goniofit" fit "data/$sample.csv" "${flags[@]}" -o "$work/$sample.$model.json" --quiet >"$work/$sample.$model.txt" || (($? == 1))
+  done
+}
+
+spheres() {
+  spheres_of li_torrance_03_roughness_mirror 130 fits/ground_glass_41.truth.json --models lambert,neither,li-torrance,he-torrance
+  local sample number=14 n=1.7
+  for sample in garnet_red_paint_13 laser_paper_73; do
+    peers "$sample" "$n"
+    local models=()
+    for model in lambert lafortune-1 ward cook-torrance; do models+=("$work/$sample.$model.json"); done
+    spheres_of "li_torrance_${number}_front_$sample" 45 "${models[@]}" "fits/$sample.json"
+    spheres_of "li_torrance_${number}_behind_$sample" 120 "${models[@]}" "fits/$sample.json"
+    number=16 n=1.5
+  done
+  spheres_of li_torrance_18_aluminium_coated_45 45 fits/aluminium_coated_45.json --models dd,coh,li-torrance,he-torrance
+  local terms='{"fresnel": "none", "shadowing": "none", "effective_roughness": "none", "distribution": "rough-limit"}'
+  local slope rough=()
+  for slope in 0.5 10 20 40; do
+    material "plaster_$slope" '"rough"' "$terms" "\"facet_slope_deg\": $slope" '"rho": 0.9'
+    rough+=("$work/plaster_$slope.json")
+  done
+  spheres_of oren_nayar_14_spheres 10 "${rough[@]}"
+}
+
+# The scenes that ship, planned.
+scenes() {
+  local scene
+  for scene in five_materials mirror; do
+    "$goniofit" render "data/scenes/$scene.toml" --quiet -o "$out/$scene.png"
+  done
+}
+
 build_program
 mkdir -p "$out"
-(($#)) || set -- plots
+(($#)) || set -- plots spheres scenes
 for part in "$@"; do
   say "gallery: $part"
   "$part"

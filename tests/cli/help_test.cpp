@@ -9,8 +9,8 @@
 namespace goniofit::test {
 namespace {
 
-const std::vector<std::string> commands{"inspect", "fit",      "compare", "simulate", "eval",
-                                        "verify",  "tradeoff", "plan",    "export",   "models"};
+const std::vector<std::string> commands{"inspect",  "fit",  "compare", "simulate", "eval",  "verify",
+                                        "tradeoff", "plan", "render",  "export",   "models"};
 
 TEST(Help, NamesEveryCommand) {
   const Outcome help = goniofit({"--help"});

@@ -153,15 +153,15 @@ void TileRenderer::reflect_by_model(const MaterialShader& shader, std::uint32_t 
     if (!(which[1] < shader.survival())) return;
     chance *= shader.survival();
   }
+  // Each effect may go on with a chance of its own: what is left has the mean of all.
+  const double indirect = context_.scene.image.indirect;
+  if (bounce == 0 && indirect < 1.0 && shader.draws_wide(to_eye_[i], which[0])) {
+    if (!(which[1] < indirect)) return;
+    chance *= indirect;
+  }
   const auto u = random_pair(path.key, for_direction, path.sample);
   const auto drawn = shader.draw(to_eye_[i], {which[0], u[0], u[1]});
   if (!drawn) return;
-  // Each effect may go on with a chance of its own: what is left has the mean of all.
-  const bool wide = drawn->chosen != Effect::dd && drawn->chosen != Effect::fs;
-  if (bounce == 0 && wide) {
-    if (!(which[1] < context_.scene.image.indirect)) return;
-    chance *= context_.scene.image.indirect;
-  }
   const Direction& l = drawn->direction;
   const Vec3 direction = surfaces_[i].shading.to_world(l.x, l.y, l.z);
   if (!(dot(direction, surfaces_[i].normal) > 0.0)) return;

@@ -6,7 +6,7 @@ source "$(dirname "$0")/lib.sh"
 
 seconds=${1:-60}
 readers=("${@:2}")
-((${#readers[@]})) || readers=(scan directions optical_constants material recipe exr_table)
+((${#readers[@]})) || readers=(scan directions optical_constants material recipe exr_table scene mesh exr_image)
 
 ensure_packages "${build_packages[@]}" clang libclang-rt-14-dev
 # The warnings that count are those of the compiler in CI.

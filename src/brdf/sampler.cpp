@@ -72,6 +72,10 @@ std::optional<DirectionSample> Sampler::sample(const Direction& l, const std::ar
   return DirectionSample{v, pdf, choice.effect};
 }
 
+Effect Sampler::chosen(const Direction& l, double u) const noexcept {
+  return l.z > 0.0 ? choose(rows_.at(l.z).share, u).effect : Effect::udf;
+}
+
 double Sampler::pdf(const Direction& l, const Direction& v) const noexcept {
   return l.z > 0.0 && v.z > 0.0 ? density(mixture(l), l, v) : 0.0;
 }

@@ -81,7 +81,8 @@ class VisibleGaussian {
 // exp(-t²)/sqrt(pi), what is seen from above.
 double normal_slope(double u) noexcept {
   constexpr double least = 1e-17;  // at u = 0 the slope is infinite
-  return -boost::math::erfc_inv(2.0 * std::max(u, least));
+  using InDouble = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
+  return -boost::math::erfc_inv(2.0 * std::max(u, least), InDouble());
 }
 
 // A(L) = integral of D(H) max(0, L·H) over the facets.

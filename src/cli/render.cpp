@@ -37,7 +37,7 @@ struct Options {
   std::optional<std::uint64_t> seed;
   std::optional<std::string> exposure, models, effects;
   std::optional<double> tolerance;
-  double light_angle = 45.0;
+  double light_angle = 45.0, sky = 0.0;
   std::size_t threads = 0;
   bool json = false, quiet = false, compare = false;
 };
@@ -141,7 +141,7 @@ Result render_scene(const Options& options) {
 Result render_spheres(const Options& options) {
   const std::vector<std::string> models =
       options.models ? parse_words(*options.models, "--models") : std::vector<std::string>{"given"};
-  SphereSettings settings{.light_angle_deg = options.light_angle};
+  SphereSettings settings{.light_angle_deg = options.light_angle, .sky = options.sky};
   if (options.size) settings.size = *options.size;
   if (options.samples) settings.samples = *options.samples;
   if (options.seed) settings.seed = *options.seed;
@@ -221,6 +221,9 @@ void expect_sizes(const Options& options) {
   if (!(options.light_angle >= -180.0 && options.light_angle <= 180.0)) {
     throw usage_error("--light-angle: " + shortest(options.light_angle) + ", expected degrees from -180 to 180");
   }
+  if (!(options.sky >= 0.0 && options.sky <= 1e6)) {
+    throw usage_error("--sky: " + shortest(options.sky) + ", expected a radiance of 0 to 1e6");
+  }
 }
 
 int run(const Options& options) {
@@ -261,6 +264,11 @@ void add_render(CLI::App& program, int& status) {
   command->add_option("--exposure", options->exposure, "of a PNG: stops, or auto")->type_name("STOPS");
   command->add_option("--light-angle", options->light_angle, "of a sphere: between eye and light, above 90 from behind")
       ->type_name("DEG")
+      ->capture_default_str();
+  command
+      ->add_option("--sky", options->sky,
+                   "of a sphere: radiance of what surrounds it, where a white facing the light has 1")
+      ->type_name("RADIANCE")
       ->capture_default_str();
   command->add_option("--models", options->models, std::string("of each sphere: ") + variant_words)->type_name("LIST");
   command

@@ -19,7 +19,8 @@ set(GONIOFIT_PUBLIC_HEADERS
   io/scan_reader.h io/material_io.h io/recipe_io.h io/optical_constants.h io/reflectance_reader.h io/exr_table.h io/png_file.h
   synthetic/simulate.h synthetic/verify.h synthetic/judgement.h synthetic/recovery.h synthetic/exact_tests.h
   cost/timing.h cost/pareto.h cost/error_samples.h cost/candidate.h cost/model_error.h cost/reference.h cost/tradeoff.h cost/planner.h
-  report/fit_report.h report/comparison_report.h report/verify_report.h report/plot.h report/plan_report.h report/tradeoff_report.h report/term_curves.h report/page.h report/material_result.h report/sphere_picture.h)
+  report/fit_report.h report/comparison_report.h report/verify_report.h report/plot.h report/plan_report.h report/tradeoff_report.h report/term_curves.h report/page.h report/material_result.h report/sphere_picture.h
+  render/vec3.h render/scene.h render/scene_reader.h render/obj_reader.h render/path_observer.h render/renderer.h render/color.h render/picture_file.h render/picture_difference.h render/survey.h render/scene_plan.h render/scene_plan_report.h render/sphere_scene.h render/material_variants.h)
 foreach(header IN LISTS GONIOFIT_PUBLIC_HEADERS)
   get_filename_component(room ${header} DIRECTORY)
   install(FILES ${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/goniofit/${room})

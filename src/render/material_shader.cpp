@@ -76,6 +76,12 @@ std::optional<DirectionSample> MaterialShader::draw(const Direction& v, const st
   return sampler_ ? sampler_->sample(v, u) : std::nullopt;
 }
 
+bool MaterialShader::draws_wide(const Direction& v, double u) const noexcept {
+  if (!sampler_) return false;
+  const Effect effect = sampler_->chosen(v, u);
+  return effect != Effect::dd && effect != Effect::fs;
+}
+
 double MaterialShader::pdf(const Direction& l, const Direction& v) const noexcept {
   return sampler_ ? sampler_->pdf(v, l) : 0.0;
 }

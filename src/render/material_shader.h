@@ -38,6 +38,8 @@ class MaterialShader {
 
   /// l for a given v, drawn by the density of `given` without coh.
   [[nodiscard]] std::optional<DirectionSample> draw(const Direction& v, const std::array<double, 3>& u) const noexcept;
+  /// Whether draw() would do so by a wide effect (all but dd and fs) for this first number.
+  [[nodiscard]] bool draws_wide(const Direction& v, double u) const noexcept;
   [[nodiscard]] double pdf(const Direction& l, const Direction& v) const noexcept;
 
   /// Part of the light that comes from the mirror direction of v and leaves for v: k_dd F S exp(-g).

@@ -26,6 +26,7 @@ Scene sphere_scene(const Material& material, const SphereSettings& settings) {
   light.intensity.assign(scene.channels.size(), pi * to_surface * to_surface);
   light.radius = 1.0;
   scene.lights.emplace_back(light);
+  if (settings.sky > 0.0) scene.lights.emplace_back(EnvironmentLight{Spectrum(scene.channels.size(), settings.sky)});
   scene.image.width = scene.image.height = settings.size;
   scene.image.samples = settings.samples;
   scene.image.seed = settings.seed;

@@ -10,6 +10,7 @@ struct SphereSettings {
   /// Between the directions from the sphere to the eye and to the light: 0 lights from the eye, 90 from the upper left,
   /// beyond it from behind, where surfaces are met and seen at grazing.
   double light_angle_deg = 45.0;
+  double sky = 0.0;  ///< radiance of all that surrounds the sphere
   std::size_t samples = 16;
   std::uint64_t seed = 1;
 };

@@ -305,8 +305,10 @@ TEST(Sampler, SaysTheSameDensityOfWhatItDrew) {
     Numbers numbers(7);
     for (int i = 0; i < 500; ++i) {
       const Direction l = direction_of(90.0 * numbers(), 360.0 * numbers());
-      const auto drawn = sampler.sample(l, numbers.three());
+      const std::array<double, 3> u = numbers.three();
+      const auto drawn = sampler.sample(l, u);
       if (!drawn) continue;
+      EXPECT_EQ(drawn->chosen, sampler.chosen(l, u[0])) << m.name;
       EXPECT_GT(drawn->direction.z, 0.0);
       EXPECT_NEAR(dot(drawn->direction, drawn->direction), 1.0, 1e-14);
       EXPECT_NEAR(drawn->pdf, sampler.pdf(l, drawn->direction), 1e-10 * drawn->pdf) << m.name;
@@ -341,6 +343,7 @@ TEST(Sampler, BelowTheHorizonThereIsNothing) {
   const Direction down{0.6, 0.0, -0.8};
   EXPECT_FALSE(sampler.sample(down, {0.5, 0.5, 0.5}));
   EXPECT_FALSE(sampler.sample({1.0, 0.0, 0.0}, {0.5, 0.5, 0.5}));
+  EXPECT_EQ(sampler.chosen(down, 0.1), Effect::udf);
   EXPECT_EQ(sampler.pdf(down, up), 0.0);
   EXPECT_EQ(sampler.pdf(up, down), 0.0);
   EXPECT_GT(sampler.pdf(up, up), 0.0);

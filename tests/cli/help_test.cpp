@@ -10,7 +10,7 @@ namespace goniofit::test {
 namespace {
 
 const std::vector<std::string> commands{"inspect", "fit",    "compare", "simulate", "eval",   "verify", "tradeoff",
-                                        "plan",    "export", "render",  "report",   "curves", "models"};
+                                        "plan",    "render", "export",  "report",   "curves", "models"};
 
 TEST(Help, NamesEveryCommand) {
   const Outcome help = goniofit({"--help"});

@@ -13,6 +13,9 @@
 #include "io/recipe_io.h"
 #include "io/reflectance_reader.h"
 #include "io/scan_reader.h"
+#include "render/exr_image.h"
+#include "render/obj_reader.h"
+#include "render/scene_reader.h"
 #include "support/error.h"
 
 namespace goniofit::fuzz {
@@ -116,6 +119,37 @@ void exr_table(std::string_view bytes) {
     const MemoryFile file(bytes);
     const BrdfTable table = read_exr(file.path());
     if (!table.channels.empty()) (void)table.value({30.0, 0.0, 40.0, 170.0}, 0);
+  });
+}
+
+void scene(std::string_view bytes) {
+  accept_errors([&] {
+    const Scene scene = parse_scene(bytes, "fuzz.toml");
+    require(!scene.objects.empty() && !scene.lights.empty(), "a scene without content");
+    for (const Object& o : scene.objects) require(o.material < scene.materials.size(), "a material that is not there");
+  });
+}
+
+void mesh(std::string_view bytes) {
+  accept_errors([&] {
+    std::istringstream in{std::string(bytes)};
+    const Mesh mesh = read_obj(in, "fuzz.obj");
+    require(!mesh.triangles.empty(), "a mesh without triangles");
+    for (const MeshTriangle& t : mesh.triangles) {
+      for (const std::uint32_t v : t.vertex) require(v < mesh.vertices.size(), "a vertex that is not there");
+      if (!t.normal) continue;
+      for (const std::uint32_t n : *t.normal) require(n < mesh.normals.size(), "a normal that is not there");
+    }
+    (void)is_closed(mesh);
+  });
+}
+
+void exr_image(std::string_view bytes) {
+  accept_errors([&] {
+    const MemoryFile file(bytes);
+    const ExrImage image = read_exr_image(file.path());
+    require(!image.channels.empty() && image.values.size() == image.channels.size(), "channels without values");
+    for (const auto& values : image.values) require(values.size() == image.width * image.height, "too few values");
   });
 }
 

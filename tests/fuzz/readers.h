@@ -15,6 +15,9 @@ void reflectances(std::string_view bytes);
 void material(std::string_view bytes);
 void recipe(std::string_view bytes);
 void exr_table(std::string_view bytes);
+void scene(std::string_view bytes);
+void mesh(std::string_view bytes);
+void exr_image(std::string_view bytes);
 
 struct Reader {
   const char* name;  ///< of its corpus folder
@@ -26,6 +29,9 @@ inline constexpr std::array readers{Reader{"scan", scan},
                                     Reader{"reflectances", reflectances},
                                     Reader{"material", material},
                                     Reader{"recipe", recipe},
-                                    Reader{"exr_table", exr_table}};
+                                    Reader{"exr_table", exr_table},
+                                    Reader{"scene", scene},
+                                    Reader{"mesh", mesh},
+                                    Reader{"exr_image", exr_image}};
 
 }  // namespace goniofit::fuzz

@@ -15,6 +15,7 @@
 #include "geometry/angles.h"
 #include "report/digest.h"
 #include "report/fit_rows.h"
+#include "report/lobe_grid.h"
 #include "report/number_text.h"
 #include "report/plot_plan.h"
 #include "report/residual_plan.h"
@@ -42,7 +43,14 @@ class Plots {
         scan_(scan),
         evaluator_(result.material),
         anisotropic_(scan.size() > 0 && is_anisotropic(Evaluator(result.material))),
-        channels_(evenly_chosen(scan.channels.size(), most_channels)) {
+        channels_(evenly_chosen(scan.channels.size(), most_channels)),
+        shown_(scan),
+        rows_(scan.size()) {
+    std::iota(rows_.begin(), rows_.end(), std::size_t{0});
+    if (anisotropic_) {
+      shown_ = at_azimuth(scan, first_azimuth());
+      rows_ = rows_at_azimuth(scan, first_azimuth());
+    }
     std::vector<AnglePair> angles;
     for (std::size_t row = 0; row < scan.size(); ++row) angles.push_back(scan.angles(row));
     fitted_ = values(evaluator_, angles);
@@ -74,6 +82,7 @@ class Plots {
         static_cast<double>(std::max<std::size_t>(1, readings * channels_.size())) * (with_u ? 1.5 : 1.0);
     return std::min(1.0, static_cast<double>(most) / values);
   }
+  [[nodiscard]] Json channel_of(const std::vector<double>& all, std::size_t channel) const;
   [[nodiscard]] Json series(const Rows& rows) const;
   [[nodiscard]] Json channels() const;
   [[nodiscard]] Json curves() const;
@@ -88,7 +97,10 @@ class Plots {
   const Scan& scan_;
   BatchEvaluator<double> evaluator_;
   bool anisotropic_;
-  Rows channels_;               // shown
+  Rows channels_;  // shown
+  // What an anisotropic material does at one azimuth says nothing of the readings at another: those of the first alone.
+  Scan shown_;
+  Rows rows_;                   // of the scan, one a reading of shown_
   std::vector<double> fitted_;  // [channel * readings + reading]
   double highest_ = 0.0;        // reading
 };
@@ -103,8 +115,19 @@ Json column(const Rows& rows, Value&& value) {
   return array_of(out);
 }
 
+std::string kept_text(double part) { return percent_text(part) + " of the readings, evenly chosen"; }
+
 std::size_t part_of(std::size_t count, double part) {
   return static_cast<std::size_t>(std::ceil(part * static_cast<double>(count)));
+}
+
+// One channel of what values() gives.
+Json Plots::channel_of(const std::vector<double>& all, std::size_t channel) const {
+  const auto size = static_cast<std::ptrdiff_t>(all.size() / scan_.channels.size());
+  const auto first = all.begin() + static_cast<std::ptrdiff_t>(channel) * size;
+  std::vector<double> one(first, first + size);
+  for (double& f : one) f = std::min(f, spike * highest_);
+  return array_of(one);
 }
 
 // Measured, fitted and u of some readings, channel by channel.
@@ -143,53 +166,35 @@ Json Plots::curve(const PlotPlan& plan, const PlottedIncidence& incidence) const
   out["channels"] = series(incidence.rows);
   out["curve_theta_r"] = array_of(angles);
   out["curve"] = Json::array();
-  for (const std::size_t c : channels_) {
-    std::vector<double> one(all.begin() + static_cast<std::ptrdiff_t>(c * angles.size()),
-                            all.begin() + static_cast<std::ptrdiff_t>((c + 1) * angles.size()));
-    for (double& f : one) f = std::min(f, spike * highest_);
-    out["curve"].push_back(array_of(one));
-  }
+  for (const std::size_t c : channels_) out["curve"].push_back(channel_of(all, c));
   return out;
-}
-
-// Rows of the scan that at_azimuth() keeps.
-Rows rows_at_azimuth(const Scan& scan, double phi_i_deg) {
-  Rows rows;
-  for (std::size_t row = 0; row < scan.size(); ++row) {
-    if (std::fabs(wrap_deg(scan.phi_i_deg[row] - phi_i_deg)) <= 0.5) rows.push_back(row);
-  }
-  return rows;
 }
 
 Json Plots::curves() const {
   Json out;
   out["incidences"] = Json::array();
-  const Scan shown = anisotropic_ ? at_azimuth(scan_, first_azimuth()) : scan_;
   PlotPlan plan;
   try {
-    plan = plan_plot(shown, {.axis = PlotAxis::automatic,
-                             .max_panels = most_channels,
-                             .max_incidences = channels_.size() > many_channels ? most_lobes : most_incidences});
+    plan = plan_plot(shown_, {.axis = PlotAxis::automatic,
+                              .max_panels = most_channels,
+                              .max_incidences = channels_.size() > many_channels ? most_lobes : most_incidences});
   } catch (const Error&) {
     out["note"] = "The scan has no readings within 10° of the plane of incidence.";
     return out;
   }
-  Rows whole(scan_.size());
-  std::iota(whole.begin(), whole.end(), std::size_t{0});
-  if (anisotropic_) {
-    plan.phi_i_deg = first_azimuth();
-    whole = rows_at_azimuth(scan_, first_azimuth());
-  }
+  if (anisotropic_) plan.phi_i_deg = first_azimuth();
   out["log"] = plan.log;
   plan.not_shown = 0;  // the page's reader chooses the axis
-  out["note"] = plot_remarks(plan);
+  std::string note = plot_remarks(plan);
   std::size_t readings = 0;
   for (const PlottedIncidence& incidence : plan.incidences) readings += incidence.rows.size();
   const double kept = kept_part(readings, most_curve_values);
+  if (kept < 1.0) note += (note.empty() ? "" : "; ") + kept_text(kept);
+  out["note"] = note;
   for (const PlottedIncidence& incidence : plan.incidences) {
     PlottedIncidence part{incidence.theta_i_deg, {}, {}};
     for (const std::size_t i : evenly_chosen(incidence.rows.size(), part_of(incidence.rows.size(), kept))) {
-      part.rows.push_back(whole[incidence.rows[i]]);
+      part.rows.push_back(rows_[incidence.rows[i]]);
       part.signed_theta_r_deg.push_back(incidence.signed_theta_r_deg[i]);
     }
     out["incidences"].push_back(curve(plan, part));
@@ -208,11 +213,11 @@ Json panel_json(const ResidualPanel& panel, const Scan& scan, const Rows& rows) 
 }
 
 Json Plots::maps() const {
-  const std::vector<ResidualPanel> panels = incidence_panels(scan_, most_incidences);
+  const std::vector<ResidualPanel> panels = incidence_panels(shown_, most_incidences);
   std::size_t readings = 0;
   std::size_t out_of_plane = 0;
   for (const ResidualPanel& panel : panels) {
-    for (const std::size_t row : panel.rows) out_of_plane += scan_.plane_side(row) == 0 ? 1 : 0;
+    for (const std::size_t row : panel.rows) out_of_plane += shown_.plane_side(row) == 0 ? 1 : 0;
     readings += panel.rows.size();
   }
   const double kept = kept_part(readings, most_map_values);
@@ -222,40 +227,19 @@ Json Plots::maps() const {
   for (const ResidualPanel& panel : panels) {
     Rows rows;
     for (const std::size_t i : evenly_chosen(panel.rows.size(), part_of(panel.rows.size(), kept)))
-      rows.push_back(panel.rows[i]);
+      rows.push_back(rows_[panel.rows[i]]);
     Json one = panel_json(panel, scan_, rows);
     one["channels"] = series(rows);
     out["panels"].push_back(std::move(one));
   }
-  if (kept < 1.0) out["note"] = fmt::format("{} of the readings, evenly chosen", percent_text(kept));
+  std::string note = anisotropic_ ? fmt::format("φᵢ = {}° alone", angle_text(first_azimuth())) : std::string();
+  if (kept < 1.0) note += (note.empty() ? "" : "; ") + kept_text(kept);
+  out["note"] = note;
   return out;
 }
 
-// Nodes between two ends at most `step` apart, closer and closer towards `about`, down to a small part of `width`.
-std::vector<double> nodes(double first, double last, double step, double about, double width, int closer) {
-  std::vector<double> out;
-  const auto count = static_cast<int>(std::ceil((last - first) / step));
-  for (int i = 0; i <= count; ++i) out.push_back(first + (last - first) * i / count);
-  const double end = std::asinh(2.0 * step / width);
-  for (int i = -closer; i <= closer; ++i) {
-    const double node = about + width * std::sinh(end * i / closer);
-    if (node > first && node < last) out.push_back(node);
-  }
-  std::sort(out.begin(), out.end());
-  out.erase(std::unique(out.begin(), out.end()), out.end());
-  return out;
-}
-
-// A grid over the hemisphere of reflected directions; only its left half where the right one is alike.
 Json Plots::lobe(const BatchEvaluator<double>& evaluator, double theta_i_deg, const Rows& channels) const {
-  constexpr double step_deg = 5.0, horizon_deg = 89.5;
-  const double width = std::clamp(lobe_width_deg(result_.material), 0.3, 20.0);
-  const double turn = std::min(60.0, width / std::max(0.05, sin_deg(theta_i_deg)));
-  const std::vector<double> theta = nodes(0.0, horizon_deg, step_deg, theta_i_deg, width, 9);
-  std::vector<double> phi = nodes(0.0, 180.0, 2.0 * step_deg, 180.0, turn, 7);
-  if (anisotropic_) {
-    for (std::size_t i = phi.size() - 1; i-- > 0;) phi.push_back(360.0 - phi[i]);
-  }
+  const auto [theta, phi] = lobe_grid(theta_i_deg, lobe_width_deg(result_.material), anisotropic_);
   std::vector<AnglePair> pairs;
   for (const double t : theta) {
     for (const double p : phi) pairs.push_back({theta_i_deg, first_azimuth(), t, first_azimuth() + p});
@@ -266,12 +250,7 @@ Json Plots::lobe(const BatchEvaluator<double>& evaluator, double theta_i_deg, co
   out["theta"] = array_of(theta);
   out["phi"] = array_of(phi);
   out["values"] = Json::array();
-  for (const std::size_t c : channels) {
-    std::vector<double> one(all.begin() + static_cast<std::ptrdiff_t>(c * pairs.size()),
-                            all.begin() + static_cast<std::ptrdiff_t>((c + 1) * pairs.size()));
-    for (double& f : one) f = std::min(f, spike * highest_);
-    out["values"].push_back(array_of(one));
-  }
+  for (const std::size_t c : channels) out["values"].push_back(channel_of(all, c));
   return out;
 }
 
@@ -309,7 +288,7 @@ Json Plots::all() const {
   out["residual"] = residual();
   out["curves"] = curves();
   out["maps"] = maps();
-  out["lobes"] = lobes(incidence_panels(scan_, most_incidences));
+  out["lobes"] = lobes(incidence_panels(shown_, most_incidences));
   return out;
 }
 

@@ -159,12 +159,17 @@ PlotPlan plan_plot(const Scan& scan, const PlotOptions& options) {
   return plan;
 }
 
-Scan at_azimuth(const Scan& scan, double phi_i_deg) {
+std::vector<std::size_t> rows_at_azimuth(const Scan& scan, double phi_i_deg) {
   constexpr double tolerance_deg = 0.5;
   std::vector<std::size_t> rows;
   for (std::size_t row = 0; row < scan.size(); ++row) {
     if (std::fabs(wrap_deg(scan.phi_i_deg[row] - phi_i_deg)) <= tolerance_deg) rows.push_back(row);
   }
+  return rows;
+}
+
+Scan at_azimuth(const Scan& scan, double phi_i_deg) {
+  const std::vector<std::size_t> rows = rows_at_azimuth(scan, phi_i_deg);
   const auto keep = [&rows](std::vector<double>& values) {
     if (values.empty()) return;  // a channel without uncertainties
     std::vector<double> kept;

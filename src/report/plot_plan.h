@@ -32,6 +32,7 @@ struct PlotPlan {
 [[nodiscard]] PlotPlan plan_plot(const Scan& scan, const PlotOptions& options);
 
 /// The readings whose azimuth of incidence is within half a degree of `phi_i_deg`.
+[[nodiscard]] std::vector<std::size_t> rows_at_azimuth(const Scan& scan, double phi_i_deg);
 [[nodiscard]] Scan at_azimuth(const Scan& scan, double phi_i_deg);
 
 /// Where to evaluate a curve: signed theta_r between the plan's ends, at most 1 degree apart, closer and closer towards

@@ -157,6 +157,29 @@ TEST(Page, MapsAndLobesOfAHemisphericalScan) {
   }
 }
 
+TEST(Page, OfAnAnisotropicMaterialOneAzimuthIsDrawn) {
+  Material material = garnet_red_paint_13();
+  material.surface = {.slope = 0.1, .slope_y = 0.3};
+  Scan scan = paint_scan(Sampling::hemisphere);
+  const std::size_t each = scan.size();
+  for (auto* angles : {&scan.theta_i_deg, &scan.theta_r_deg})
+    angles->insert(angles->end(), angles->begin(), angles->begin() + static_cast<std::ptrdiff_t>(each));
+  for (auto* azimuths : {&scan.phi_i_deg, &scan.phi_r_deg}) {
+    for (std::size_t row = 0; row < each; ++row) azimuths->push_back((*azimuths)[row] + 90.0);
+  }
+  for (ScanChannel& channel : scan.channels) channel.values.resize(2 * each, 7.0);
+  const Json plots = Json::parse(page_data(result_of_material(material, scan), scan, {})).at("plots");
+  EXPECT_TRUE(plots.at("anisotropic").get<bool>());
+  EXPECT_EQ(plots.at("maps").at("note"), "φᵢ = 0° alone");
+  std::size_t readings = 0;
+  for (const Json& panel : plots.at("maps").at("panels")) {
+    for (const float value : floats(panel.at("channels").at(0).at("measured"))) EXPECT_NE(value, 7.0F);
+    readings += floats(panel.at("theta_r")).size();
+  }
+  EXPECT_EQ(readings, each);
+  EXPECT_GT(floats(plots.at("lobes").at("lobes").at(0).at("phi")).back(), 350.0F) << "both halves";
+}
+
 TEST(Page, NothingFromAFileBecomesMarkup) {
   const std::string evil = "</script><script>alert('x')</script><img src=x onerror=\"alert(1)\">&amp;";
   Material material = garnet_red_paint_13();

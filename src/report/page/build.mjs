@@ -1,7 +1,7 @@
 // Makes the C++ file that holds the page: node build.mjs OUTPUT.cpp, in a folder with these sources and node_modules.
 
 import { createHash } from "node:crypto";
-import { readFileSync, writeFileSync } from "node:fs";
+import { readdirSync, readFileSync, writeFileSync } from "node:fs";
 import { build, transform } from "esbuild";
 
 const bundle = await build({
@@ -9,16 +9,31 @@ const bundle = await build({
   bundle: true,
   minify: true,
   write: false,
+  metafile: true,
   format: "iife",
   target: "es2020",
   charset: "utf8",
-  legalComments: "inline",
+  legalComments: "none", // all licences follow below
   define: { global: "window", "define.amd": "false" },
   // Of maps with tiles, which this page has none of.
   loader: { ".css": "empty" },
   logLevel: "warning",
 });
 const script = bundle.outputFiles[0].text;
+// What is in the bundle may be passed on with its licence alone.
+function licences(inputs) {
+  const folders = new Set(inputs.map((path) => path.match(/^(.*node_modules\/(?:@[^/]+\/)?[^/]+)\//)?.[1]).filter(Boolean));
+  return [...folders].sort().map((folder) => {
+    const { name, version, license } = JSON.parse(readFileSync(`${folder}/package.json`, "utf8"));
+    const file = readdirSync(folder).find((entry) => /^licen[cs]e/i.test(entry));
+    const text = file ? readFileSync(`${folder}/${file}`, "utf8").trim() : `Licence: ${license}`;
+    return `${name} ${version}\n\n${text.replaceAll("<", "‹").replaceAll(">", "›")}`;
+  });
+}
+const [{ inputs }] = Object.values(bundle.metafile.outputs);
+const within = ["node_modules/delaunator/", "node_modules/robust-predicates/"]; // d3-delaunay brings them in its own file
+const parts = licences([...Object.keys(inputs).filter((path) => !path.endsWith(".css")), ...within]);
+
 const style = (await transform(readFileSync("page.css", "utf8"), { loader: "css", minify: true })).code;
 
 // Nothing is loaded from anywhere, and no script runs but this one.
@@ -35,6 +50,7 @@ const policy = [
 const [head, rest] = readFileSync("page.html", "utf8")
   .replace("@policy@", () => policy)
   .replace("@style@", () => style)
+  .replace("@licences@", () => parts.join(`\n\n${"-".repeat(72)}\n\n`))
   .split("@title@");
 const [middle, tail] = rest.split("@data@");
 

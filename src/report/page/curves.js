@@ -4,7 +4,7 @@ import { report, floats, series, residuals, residualText, residualIsPart, quanti
 import { choice, el, section, whenSeen } from "./dom.js";
 import { incidence, residualTick, superscript } from "./format.js";
 import { axis, curveStyle, draw, ink } from "./plotting.js";
-import { choose, onChoice, state } from "./state.js";
+import { choose, nearest, onChoice, state } from "./state.js";
 
 const curves = report.plots.curves;
 const deepest = 1e7; // further below the highest nothing is measured
@@ -158,13 +158,14 @@ export function curvesSection() {
 /// A choice of the channel; all of them change together. Null where there is but one.
 export function channelChoice(name, indices = report.plots.channels.map((_, i) => i)) {
   if (indices.length < 2) return null;
+  const shown = () => String(indices[nearest(indices, state.channel)]);
   const node = choice(
     "Channel",
     name,
     indices.map((i) => ({ value: String(i), text: report.plots.channels[i] })),
-    String(state.channel),
+    shown(),
     (value) => choose({ channel: Number(value) }),
   );
-  onChoice((change) => "channel" in change && node.set(String(change.channel)));
+  onChoice((change) => "channel" in change && node.set(shown()));
   return node;
 }

@@ -149,6 +149,11 @@ function materialFile() {
     el("p", { class: "buttons" }, copy, save, copied), el("pre", { tabindex: "0", id: "material-json" }, text));
 }
 
+function licences() {
+  return el("details", {}, el("summary", {}, "Licences of what this page is made of"),
+    el("pre", { tabindex: "0" }, document.getElementById("licences").textContent));
+}
+
 export function sourceSection() {
   const { inputs, command, versions, random, metadata } = report.source;
   const entries = [
@@ -161,5 +166,5 @@ export function sourceSection() {
   return section("source", "Where this page comes from",
     el("dl", { class: "source" }, entries.filter(([, content]) => content[0]).map(([label, content]) =>
       [el("dt", {}, label), el("dd", {}, content)])),
-    materialFile());
+    materialFile(), licences());
 }

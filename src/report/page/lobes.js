@@ -5,7 +5,7 @@ import { report, floats, series } from "./data.js";
 import { choice, el, section, whenSeen } from "./dom.js";
 import { draw, ink, relayout, snapshot } from "./plotting.js";
 import { panelChoice } from "./maps.js";
-import { onChoice, state } from "./state.js";
+import { nearest, onChoice, state } from "./state.js";
 
 const { lobes, panels: lobePanels, channels: lobeChannels } = report.plots.lobes;
 const panels = report.plots.maps.panels;
@@ -89,9 +89,6 @@ function frame(thetaI) {
     line(ray(thetaI, 180), "#000", "dash", "mirror"),
   ];
 }
-
-const nearest = (indices, wanted) =>
-  indices.reduce((best, i, k) => (Math.abs(i - wanted) < Math.abs(indices[best] - wanted) ? k : best), 0);
 
 const scene = () => {
   const none = { visible: false, range: [-1.2, 1.2] };

@@ -7,7 +7,7 @@ import { choice, el, section, whenSeen } from "./dom.js";
 import { channelChoice } from "./curves.js";
 import { angle, incidence, number, percent, residualTick, tick } from "./format.js";
 import { diverging, draw, ink, sequential } from "./plotting.js";
-import { choose, onChoice, state } from "./state.js";
+import { choose, nearest, onChoice, state } from "./state.js";
 
 const { panels, available, note } = report.plots.maps;
 const cells = 220; // a side of the raster
@@ -219,9 +219,10 @@ export function mapsSection() {
 /// A choice of the incidence angle, common to maps and lobes.
 export function panelChoice(name, indices = panels.map((_, i) => i)) {
   if (indices.length < 2) return null;
+  const shown = () => String(indices[nearest(indices, state.panel)]);
   const node = choice("Incidence", name,
     indices.map((i) => ({ value: String(i), text: `θᵢ = ${incidence(panels[i])}` })),
-    String(state.panel), (value) => choose({ panel: Number(value) }));
-  onChoice((change) => "panel" in change && node.set(String(change.panel)));
+    shown(), (value) => choose({ panel: Number(value) }));
+  onChoice((change) => "panel" in change && node.set(shown()));
   return node;
 }

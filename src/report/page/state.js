@@ -16,6 +16,10 @@ export const state = {
   scale: report.plots.curves.log ? "log" : "linear",
 };
 
+/// Where `indices` come nearest to the one wanted: plots that hold fewer channels or angles than others show that.
+export const nearest = (indices, wanted) =>
+  indices.reduce((best, i, k) => (Math.abs(i - wanted) < Math.abs(indices[best] - wanted) ? k : best), 0);
+
 export function choose(change) {
   Object.assign(state, change);
   for (const listener of listeners) listener(change);

@@ -6,6 +6,7 @@
 #include <goniofit/peers/rational_fraction.h>
 #include <goniofit/peers/schlick_sampling.h>
 #include <goniofit/report/comparison_report.h>
+#include <goniofit/report/page.h>
 #include <goniofit/terms/effective_roughness.h>
 #include <goniofit/terms/fresnel.h>
 #include <goniofit/terms/he_torrance.h>
@@ -26,4 +27,5 @@ int main(int, char** argv) {
   const auto sample = goniofit::Sampler(evaluator).sample(light, {0.1, 0.3, 0.7});
   std::cout << "pdf " << (sample && sample->pdf > 0.0 ? "positive" : "missing") << '\n';
   std::cout << "peers " << goniofit::peer_catalogue().size() << '\n';
+  std::cout << "page " << (goniofit::report_page(result, scan, {}).size() > 1'000'000 ? "whole" : "missing") << '\n';
 }

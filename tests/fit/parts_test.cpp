@@ -117,7 +117,14 @@ INSTANTIATE_TEST_SUITE_P(
                            s.loss = Loss::inverse_variance;
                          },
                          1e-8},
-                    Case{"f0_and_values_left_out",
+                    Case{"peer",
+             [](Scan&, FitSettings& s) {
+               s.model = "ggx";
+               s.components.reset();
+               s.uncertainty = UncertaintySource::hc3;
+             },
+             1e-7},
+        Case{"f0_and_values_left_out",
                          [](Scan&, FitSettings& s) {
                            s.free_optics = FreeOptics::f0;
                            s.parameters["k_dd"].value = 0.3;

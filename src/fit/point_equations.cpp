@@ -28,18 +28,23 @@ void add(const Problem& problem, Model& model, const FitPoint& point, PointEquat
 }  // namespace
 
 const PointEquations& EquationsAt::at(const FitPoint& point) {
-  if (!equations_.channels.empty() && same(point, point_)) return equations_;
-  equations_ = {};
+  for (std::size_t i = 0; i < known_.size(); ++i) {
+    if (known_[i].equations.channels.empty() || !same(point, known_[i].point)) continue;
+    last_ = i;
+    return last();
+  }
+  last_ = 1 - last_;
+  PointEquations& to = known_[last_].equations = {};
   if (problem_.by_parts()) {
     problem_.for_each_part([&](const Problem& part) {
       Model own(part);
-      add(part, own, point, equations_);
+      add(part, own, point, to);
     });
   } else {
-    add(problem_, model_, point, equations_);
+    add(problem_, model_, point, to);
   }
-  point_ = point;
-  return equations_;
+  known_[last_].point = point;
+  return to;
 }
 
 }  // namespace goniofit

@@ -1,6 +1,8 @@
 #pragma once
 // What a step reads of a whole problem at a point: the products of its residuals and their derivatives.
 
+#include <array>
+#include <cstddef>
 #include <vector>
 
 #include "model.h"
@@ -23,16 +25,20 @@ class EquationsAt {
   /// `model` is of that problem; one by parts does without.
   EquationsAt(const Problem& problem, Model& model) : problem_(problem), model_(model) {}
 
-  /// Nothing is computed again for the point asked for last: an optimiser goes on from nearly all that it tries, and
-  /// ends at the last.
+  /// Nothing is computed again for the last two points asked for: an optimiser goes on from nearly all that it tries,
+  /// and ends at one of these.
   const PointEquations& at(const FitPoint& point);
-  [[nodiscard]] const PointEquations& last() const noexcept { return equations_; }
+  [[nodiscard]] const PointEquations& last() const noexcept { return known_[last_].equations; }
 
  private:
   const Problem& problem_;
   Model& model_;
-  FitPoint point_;
-  PointEquations equations_;
+  struct Known {
+    FitPoint point{};
+    PointEquations equations{};
+  };
+  std::array<Known, 2> known_;
+  std::size_t last_ = 0;
 };
 
 }  // namespace goniofit

@@ -5,10 +5,9 @@
 #include <numeric>
 #include <utility>
 
-#include "fit/cross_validation.h"
 #include "fit/joint_jacobian.h"
+#include "fit/linear_spread.h"
 #include "fit/reading_noise.h"
-#include "fit/studentised.h"
 
 namespace goniofit {
 
@@ -83,142 +82,6 @@ void for_each_place(Uncertainties& u, const ParameterPlaces& places, const F& f)
   visit(u.optics, places.optics);
 }
 
-template <class F>
-std::vector<Eigen::VectorXd> by_channel(const Problem& problem, const F& f) {
-  std::vector<Eigen::VectorXd> out;
-  for (std::size_t c = 0; c < problem.channels.size(); ++c) out.emplace_back(f(c));
-  return out;
-}
-
-// Rows of the linearised problem over some of its parameters.
-struct Rows {
-  const Problem& problem;
-  const Linearisation& l;
-  const JointJacobian& j;
-  const std::vector<Eigen::VectorXd>& residuals;
-};
-
-// A linearised problem over some of its parameters, these moved by a step; an empty one is none.
-struct Linear {
-  const LinearParts& parts;
-  const JointJacobian& j;
-  Eigen::VectorXd step{};
-
-  // Calls f(Rows).
-  template <class F>
-  void with_rows(const Problem& problem, const Linearisation& l, const F& f) const {
-    const JointJacobian own = j.with_rows(l);
-    if (step.size() == 0) return f(Rows{problem, l, own, l.residuals});
-    std::vector<Eigen::VectorXd> residuals = l.residuals;
-    for (std::size_t c = 0; c < residuals.size(); ++c)
-      residuals[c] += own.blocks()[c].times(step(own.blocks()[c].index()));
-    f(Rows{problem, l, own, residuals});
-  }
-  template <class F>
-  void for_each(const F& f) const {
-    parts.for_each([&](const Problem& part, const Linearisation& l) { with_rows(part, l, f); });
-  }
-  // The Meat of e(Rows, channel).
-  template <class E>
-  [[nodiscard]] Meat meat(const E& e) const {
-    Meat out(parts.problem().channels.size());
-    for_each([&](const Rows& rows) {
-      out.add(rows.j, by_channel(rows.problem, [&](std::size_t c) { return e(rows, c); }));
-    });
-    return out;
-  }
-};
-
-// A robust kernel's reweighting overstates what the readings say by the share of the kernel's curvature.
-Spread without_reweighting(Spread spread, double kernel_share) {
-  spread.covariance /= kernel_share * kernel_share;
-  return spread;
-}
-
-Spread spread_of_readings(const Linear& linear) {
-  return spread_by_meat(
-      linear.j, linear.meat([](const Rows& rows, std::size_t c) { return reading_sd(rows.problem, rows.l, c); }));
-}
-
-Spread spread_of_angles(const Linear& linear) {
-  Spread out;
-  linear.for_each(
-      [&](const Rows& rows) { out = spread_by_angles(rows.j, rows.residuals, angle_groups(rows.problem)); });
-  return out;
-}
-
-Eigen::ArrayXd counts_of(const std::vector<double>& factor) {
-  return Eigen::Map<const Eigen::ArrayXd>(factor.data(), static_cast<Eigen::Index>(factor.size())).square();
-}
-
-std::vector<Eigen::VectorXd> variances(const Rows& rows, const ResidualNoise& noise) {
-  return by_channel(rows.problem, [&](std::size_t c) {
-    return variance_by(noise.noise[c], rows.problem, rows.l, rows.residuals[c], c);
-  });
-}
-
-Spread hc3_spread(const Linear& linear, const ResidualNoise& noise, const std::vector<Eigen::Index>& parameters) {
-  const auto size = static_cast<std::size_t>(linear.j.size());
-  Meat meat(linear.parts.problem().channels.size());
-  std::vector<bool> single(size, false);
-  linear.for_each([&](const Rows& rows) {
-    const LeftOut out = left_out_residuals(rows.j, rows.residuals);
-    meat.add(rows.j, out.e);
-    for (std::size_t i = 0; i < size; ++i) single[i] = single[i] || out.single[i];
-  });
-  Spread out = spread_by_meat(linear.j, meat);
-  out.single = std::move(single);
-  linear.parts.visit_drawn([&](const Problem& part, const Linearisation& l, const std::vector<double>& factor) {
-    linear.with_rows(part, l, [&](const Rows& rows) {
-      const std::vector<Eigen::VectorXd> variance = variances(rows, noise);
-      const Eigen::ArrayXd counts = counts_of(factor);
-      const Studentised studentised(rows.j, variance, counts, parameters);
-      for (std::size_t i = 0; i < parameters.size(); ++i) {
-        const Studentised::Factors k = studentised.factors(i);
-        out.k[static_cast<std::size_t>(parameters[i])] = {k.at_68, k.at_95};
-      }
-    });
-  });
-  return out;
-}
-
-Spread noise_spread(const Linear& linear, const ResidualNoise& noise) {
-  const Meat meat = linear.meat([&](const Rows& rows, std::size_t c) {
-    return variance_by(noise.noise[c], rows.problem, rows.l, rows.residuals[c], c).cwiseSqrt().eval();
-  });
-  return spread_by_noise(linear.j, meat, noise.freedom);
-}
-
-// Of the parameters asked for; says what it is by.
-Spread spread_of(const Linear& linear, const std::vector<Eigen::Index>& parameters, UncertaintySource& source) {
-  const UncertaintySource asked = linear.parts.problem().uncertainty;
-  if (asked == UncertaintySource::readings) return spread_of_readings(linear);
-  if (asked == UncertaintySource::angles) return spread_of_angles(linear);
-  ResidualNoise noise;
-  linear.parts.visit_drawn([&](const Problem& part, const Linearisation& l, const std::vector<double>& factor) {
-    linear.with_rows(part, l, [&](const Rows& rows) {
-      noise = residual_noise(rows.problem, rows.l, rows.residuals, rows.j, counts_of(factor));
-    });
-  });
-  if (asked == UncertaintySource::residuals && noise.holds) return noise_spread(linear, noise);
-  source = UncertaintySource::hc3;
-  return hc3_spread(linear, noise, parameters);
-}
-
-Spread stated_spread(const Linear& linear, const std::vector<Eigen::Index>& parameters, UncertaintySource& source) {
-  return without_reweighting(spread_of(linear, parameters, source), linear.parts.kernel_share());
-}
-
-Eigen::VectorXd change_by_scale(const Linear& linear) {
-  Eigen::VectorXd sum = Eigen::VectorXd::Zero(linear.j.size());
-  if (linear.parts.problem().scale_u == 0.0) return sum;
-  linear.for_each([&](const Rows& rows) {
-    sum += rows.j.transposed_times(
-        by_channel(rows.problem, [&](std::size_t c) { return residual_by_scale(rows.problem, rows.l, c); }));
-  });
-  return -linear.j.solve(sum);
-}
-
 // The scale is known as normally distributed: it takes its part of the square out of what is open in `k` (Welch).
 CoverageFactors with_scale(const CoverageFactors& k, double u, double u_scale) {
   if (u_scale == 0.0) return k;
@@ -259,7 +122,7 @@ double reduced_chi_square(const LinearParts& parts, Eigen::Index parameters) {
 // What the readings' own uncertainties give, whatever is stated.
 void add_readings(const Linear& linear, Uncertainties& out) {
   if (!states_uncertainties(linear.parts.problem())) return;
-  out.covariance_readings = without_reweighting(spread_of_readings(linear), linear.parts.kernel_share()).covariance;
+  out.covariance_readings = spread_by_stated_u(linear).covariance;
   out.reduced_chi_square = reduced_chi_square(linear.parts, linear.j.size());
 }
 

@@ -241,11 +241,11 @@ plots() {
   schlick
 }
 
-# spheres NAME ANGLE MATERIAL... [FLAG...]: side by side under a small lamp, ANGLE degrees away from the eye.
+# spheres_of NAME ANGLES MATERIAL... [FLAG...]: side by side under a small lamp, ANGLES degrees away from the eye.
 spheres_of() {
-  local name=$1 angle=$2
+  local name=$1 angles=$2
   shift 2
-  "$goniofit" render "$@" --light-angle "$angle" --size 180 --samples 32 --quiet -o "$out/$name.png" >/dev/null
+  "$goniofit" render "$@" --light-angle "$angles" --size 180 --samples 32 --quiet -o "$out/$name.png" >/dev/null
 }
 
 # peers SAMPLE N: the sample's scan fitted with other models; that a model does not describe it (status 1) is the point.
@@ -259,7 +259,7 @@ peers() {
 }
 
 spheres() {
-  spheres_of li_torrance_03_roughness_mirror 130 fits/ground_glass_41.truth.json --models lambert,neither,li-torrance,he-torrance
+  spheres_of li_torrance_03_roughness_mirror 30,90,130,155 fits/ground_glass_41.truth.json
   local sample number=14 n=1.7
   for sample in garnet_red_paint_13 laser_paper_73; do
     peers "$sample" "$n"
@@ -269,7 +269,6 @@ spheres() {
     spheres_of "li_torrance_${number}_behind_$sample" 120 "${models[@]}" "fits/$sample.json"
     number=16 n=1.5
   done
-  spheres_of li_torrance_18_aluminium_coated_45 45 fits/aluminium_coated_45.json --models dd,coh,li-torrance,he-torrance
   local terms='{"fresnel": "none", "shadowing": "none", "effective_roughness": "none", "distribution": "rough-limit"}'
   local slope rough=()
   for slope in 0.5 10 20 40; do

@@ -37,7 +37,8 @@ struct Options {
   std::optional<std::uint64_t> seed;
   std::optional<std::string> exposure, models, effects;
   std::optional<double> tolerance;
-  double light_angle = 45.0, sky = 0.0;
+  std::string light_angles = "45";
+  double sky = 0.0;
   std::size_t threads = 0;
   bool json = false, quiet = false, compare = false;
 };
@@ -141,7 +142,8 @@ Result render_scene(const Options& options) {
 Result render_spheres(const Options& options) {
   const std::vector<std::string> models =
       options.models ? parse_words(*options.models, "--models") : std::vector<std::string>{"given"};
-  SphereSettings settings{.light_angle_deg = options.light_angle, .sky = options.sky};
+  const std::vector<double> angles = parse_numbers(options.light_angles, "--light-angle");
+  SphereSettings settings{.sky = options.sky};
   if (options.size) settings.size = *options.size;
   if (options.samples) settings.samples = *options.samples;
   if (options.seed) settings.seed = *options.seed;
@@ -152,9 +154,15 @@ Result render_spheres(const Options& options) {
     const Material material = read_material(path);
     for (const std::string& model : models) {
       const std::string name = material.name.empty() ? path.stem().string() : material.name;
-      result.captions.push_back(model == "given" ? name : name + ": " + model);
-      const Scene scene = sphere_scene(variant_of(material, model), settings);
-      add(result, render_with_progress(scene, given_materials(scene), options, result.captions.back(), line), pictures);
+      for (const double angle : angles) {
+        std::string caption = model == "given" ? name : name + ": " + model;
+        if (angles.size() > 1) caption += ", light at " + shortest(angle) + "°";
+        result.captions.push_back(std::move(caption));
+        settings.light_angle_deg = angle;
+        const Scene scene = sphere_scene(variant_of(material, model), settings);
+        add(result, render_with_progress(scene, given_materials(scene), options, result.captions.back(), line),
+            pictures);
+      }
     }
   }
   result.picture = side_by_side(pictures);
@@ -218,8 +226,10 @@ void expect_sizes(const Options& options) {
     throw usage_error("--samples: " + std::to_string(*options.samples) + ", expected 1 to " +
                       std::to_string(most_samples));
   }
-  if (!(options.light_angle >= -180.0 && options.light_angle <= 180.0)) {
-    throw usage_error("--light-angle: " + shortest(options.light_angle) + ", expected degrees from -180 to 180");
+  for (const double angle : parse_numbers(options.light_angles, "--light-angle")) {
+    if (!(angle >= -180.0 && angle <= 180.0)) {
+      throw usage_error("--light-angle: " + shortest(angle) + ", expected degrees from -180 to 180");
+    }
   }
   if (!(options.sky >= 0.0 && options.sky <= 1e6)) {
     throw usage_error("--sky: " + shortest(options.sky) + ", expected a radiance of 0 to 1e6");
@@ -262,8 +272,10 @@ void add_render(CLI::App& program, int& status) {
       ->type_name("N");
   command->add_option("--seed", options->seed, "of the samples (the scene's, or 1)")->type_name("INTEGER");
   command->add_option("--exposure", options->exposure, "of a PNG: stops, or auto")->type_name("STOPS");
-  command->add_option("--light-angle", options->light_angle, "of a sphere: between eye and light, above 90 from behind")
-      ->type_name("DEG")
+  command
+      ->add_option("--light-angle", options->light_angles,
+                   "of a sphere: between eye and light, above 90 from behind; several side by side")
+      ->type_name("LIST")
       ->capture_default_str();
   command
       ->add_option("--sky", options->sky,

@@ -171,6 +171,22 @@ struct Forward {
 };
 
 template <class Real, class In>
+struct Along {
+  using Arguments = PrepareArguments<Real, In>;
+
+  [[gnu::always_inline]] static void run(const Arguments& a) {
+    const auto direction = a.direction;
+    Real* const dot_h = a[Field::dot_h];
+    const std::size_t n = a.n;
+#pragma GCC ivdep
+    for (std::size_t k = 0; k < n; ++k) {
+      const auto d = Vectors<In>::at(direction, k);
+      dot_h[k] = static_cast<Real>(d.l_x * d.v_x + d.l_y * d.v_y);
+    }
+  }
+};
+
+template <class Real, class In>
 struct Mirror {
   using Arguments = PrepareArguments<Real, In>;
 
@@ -217,6 +233,7 @@ std::vector<Loop<PrepareArguments<Real, In>>> preparations(Fields fields, Instru
   } else if (fields.any_of({tan2_f, forward})) {
     loops.push_back(Vectorised<Forward<Real, In, false>>::of(set));
   }
+  if (fields.has(dot_h)) loops.push_back(Vectorised<Along<Real, In>>::of(set));
   if (fields.has(mirror_distance2)) loops.push_back(Vectorised<Mirror<Real, In>>::of(set));
   return loops;
 }

@@ -100,6 +100,29 @@ struct LobeRateArguments {
 [[nodiscard]] Loop<LobeRateArguments> directional_diffuse_rate(bool grows, InstructionSet);
 [[nodiscard]] Loop<LobeRateArguments> forward_scattering_rate(FsForm, bool grows, InstructionSet);
 
+/// direct and interreflection of rough, the former cut at zero. Null for the integral, which has no loop.
+template <class Real>
+struct RoughArguments {
+  Geometry<Real> g;
+  Terms<Real>* t;
+  std::size_t n;
+  Real facet_slope;  ///< radians
+};
+template <class Real>
+[[nodiscard]] Loop<RoughArguments<Real>> rough(RoughForm, InstructionSet);
+[[nodiscard]] Fields rough_fields(RoughForm);
+/// Adds rho/pi (direct + rho interreflection) to a channel.
+template <class Real, class Out>
+struct AddRoughArguments {
+  Geometry<Real> g;
+  const Terms<Real>* t;
+  std::size_t n;
+  Real rho, most;
+  Out* out;
+};
+template <class Real, class Out>
+[[nodiscard]] Loop<AddRoughArguments<Real, Out>> add_rough(InstructionSet);
+
 /// What W reads of a pair, log_g and x; and dd from log_w.
 template <class Real>
 struct WaveLoopArguments {
@@ -168,7 +191,7 @@ template <class Real, class Out>
 [[nodiscard]] Loop<CombineArguments<Real, Out>> combine(Use mirror, Use below, bool fs, InstructionSet);
 
 /// Geometry from unit vectors: the fields asked for, and some that come with them, computed in In and rounded to Real.
-/// dot_h and what belongs to azimuths is not among them.
+/// What belongs to single azimuths is not among them.
 template <class Real, class In>
 struct PrepareArguments {
   std::array<const In*, 6> direction;  ///< l_x, l_y, l_z, v_x, v_y, v_z

@@ -175,6 +175,8 @@ void SurfaceProgram<Out, Real>::plan_loops() {
       wave_lobe_ = block::wave_lobe<Real>(grows_, set_);
     }
   }
+  if (rough_) rough_loop_ = block::rough<Real>(scalar_.material().forms.rough, set_);
+  if (rough_) add_rough_ = block::add_rough<Real, Out>(set_);
   fresnel_ = block::exact_fresnel<Real>(set_);
   transmission_ = block::exact_transmission<Real>(set_);
   for (const ChannelPlan<Real>& p : plans_) {
@@ -191,6 +193,7 @@ void SurfaceProgram<Out, Real>::add_fields() {
   if (wave_ && !by_pair_) fields_ |= {s_z, s_h2};
   if (fs_loop_ != nullptr) fields_ |= {one_minus_cos_i, one_minus_cos_r, tan2_f, forward};
   if (fs_loop_ != nullptr && shape_.forms.fs == FsForm::reciprocal) fields_ |= {tan2_f_swapped};
+  if (rough_loop_ != nullptr) fields_ |= block::rough_fields(scalar_.material().forms.rough);
   if (coherent_) fields_ |= {mirror_distance2};
   for (const ChannelPlan<Real>& p : plans_) {
     if (p.mirror == Use::schlick || p.mirror == Use::array) fields_ |= {cos_h, one_minus_cos_h};
@@ -224,9 +227,18 @@ void SurfaceProgram<Out, Real>::run_shared(const Source& source, std::size_t fir
   if (dd_loop_ != nullptr) dd_loop_(lobe);
   if (fs_loop_ != nullptr) fs_loop_(lobe);
   if (by_pair_ && !wave_ && (dd_ || fs_)) run_shapes_by_pair(source, first, n, 1.0, w);
-  if (!rough_) return;
+  if (rough_) run_rough(source, first, n, w);
+}
+
+template <class Out, class Real>
+template <class Source>
+void SurfaceProgram<Out, Real>::run_rough(const Source& source, std::size_t first, std::size_t n, Workspace& w) const {
   const Material& m = scalar_.material();
   const double facet_slope = radians(m.surface.facet_slope_deg.value_or(0.0));
+  if (rough_loop_ != nullptr) {
+    rough_loop_({w.geometry, &w.terms, whole_vectors(n), static_cast<Real>(facet_slope)});
+    return;
+  }
   for (std::size_t k = 0; k < n; ++k) {
     const Pair p = source.pair(first + k);
     if (!(p.cos_i > 0.0) || !(p.cos_r > 0.0)) continue;
@@ -334,14 +346,7 @@ void SurfaceProgram<Out, Real>::run_channel(const Source& source, std::size_t ch
   if (p.new_optics) run_optics(p, n, w);
   combine_[channel]({w.geometry, &w.terms, whole_vectors(n), p.mirror_0, p.mirror_1, p.below_0, p.below_1, p.diffuse,
                      most_value<Real>, out});
-  if (p.rough) {
-    const Real scale = p.rho / Real(pi);
-    for (std::size_t k = 0; k < n; ++k) {
-      if (!(w.geometry[Field::cos_i][k] > Real(0)) || !(w.geometry[Field::cos_r][k] > Real(0))) continue;
-      const Real rough = scale * (w.terms.direct[k] + p.rho * w.terms.interreflection[k]);
-      out[k] = std::min<Out>(out[k] + static_cast<Out>(rough), most_value<Real>);
-    }
-  }
+  if (p.rough) add_rough_({w.geometry, &w.terms, whole_vectors(n), p.rho, most_value<Real>, out});
   if (p.coherent) add_coherent(source, channel, first, n, w, out);
 }
 

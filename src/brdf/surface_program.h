@@ -57,6 +57,8 @@ class SurfaceProgram final : public Program<Out> {
   template <class Source>
   void run_shared(const Source& source, std::size_t first, std::size_t n, Workspace& w) const;
   template <class Source>
+  void run_rough(const Source& source, std::size_t first, std::size_t n, Workspace& w) const;
+  template <class Source>
   void run_shapes_by_pair(const Source& source, std::size_t first, std::size_t n, double wavelength_um,
                           Workspace& w) const;
   template <class Source>
@@ -88,6 +90,8 @@ class SurfaceProgram final : public Program<Out> {
   std::optional<SharedCurves> curves_;
   block::Loop<block::VisibilityArguments<Real>> visibility_ = nullptr;
   block::Loop<block::LobeArguments<Real>> dd_loop_ = nullptr, fs_loop_ = nullptr;
+  block::Loop<block::RoughArguments<Real>> rough_loop_ = nullptr;
+  block::Loop<block::AddRoughArguments<Real, Out>> add_rough_ = nullptr;
   block::Loop<block::WaveLoopArguments<Real>> wave_arguments_ = nullptr, wave_lobe_ = nullptr;
   block::Loop<block::FresnelArguments<Real>> fresnel_ = nullptr, transmission_ = nullptr;
   std::vector<block::Loop<block::CombineArguments<Real, Out>>> combine_;  ///< one a channel

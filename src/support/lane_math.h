@@ -186,6 +186,25 @@ template <class Real>
   }
 }
 
+/// (asin x - x)/x³ as a function of x², for x² up to ½.
+template <class Real>
+[[nodiscard]] [[gnu::always_inline]] inline Real asin_tail(Real x2) noexcept {
+  if constexpr (std::is_same_v<Real, float>) {
+    constexpr std::array<float, 7> c{0.16666673576687637826F,  0.074986516632921731973F, 0.045064493159567141356F,
+                                     0.025548843194940516754F, 0.047878790478741314884F, -0.047614747773011972809F,
+                                     0.084298201926807175832F};
+    return polynomial(c, x2);
+  } else {
+    constexpr std::array<double, 18> c{0.1666666666666666019,   0.075000000000089828145, 0.044642857123585157064,
+                                       0.03038194607802385816,  0.022372086303686842396, 0.017354730668996842802,
+                                       0.013929824301362787528, 0.011985559032731258472, 0.0058919623838489124448,
+                                       0.033823977477227554211, -0.11747841395554579902, 0.46581061083892005836,
+                                       -1.2586813003945880318,  2.5735080644015928542,   -3.7415993002001366463,
+                                       3.7316474816315223784,   -2.2779904894416329597,  0.66294755483690970266};
+    return polynomial(c, x2);
+  }
+}
+
 }  // namespace lane
 
 /// e^x, x in [-690, 709] (float [-64, 88]); beyond, that of the range's end.
@@ -242,6 +261,13 @@ template <class Real>
 template <class Real>
 [[nodiscard]] [[gnu::always_inline]] inline Lane<Real> sqrt(Lane<Real> x) noexcept {
   return std::sqrt(x.v);
+}
+
+/// asin x, |x| <= √½; finite up to 1, where it is not the arc sine.
+template <class Real>
+[[nodiscard]] [[gnu::always_inline]] inline Lane<Real> asin(Lane<Real> x) noexcept {
+  const Real x2 = x.v * x.v;
+  return x.v + x.v * x2 * lane::asin_tail(x2);
 }
 
 }  // namespace goniofit

@@ -12,6 +12,7 @@ namespace {
 
 // Paths traced together: enough for full batches, few enough to stay in the cache.
 constexpr std::size_t paths_at_once = 4096;
+
 }  // namespace
 
 TileRenderer::TileRenderer(const RenderContext& context)

@@ -36,8 +36,10 @@ Sampler::Sampler(const Evaluator& evaluator) : nominal_(NominalLobes::of(evaluat
 
 Sampler::Mixture Sampler::mixture(const Direction& l) const noexcept {
   const SamplingRow row = rows_.at(l.z);
-  return {row.share, nominal_.cone, nominal_.facets(std::exp(row.log_facet_width)),
-          nominal_.forward(l, std::exp(row.log_forward_width))};
+  Mixture m{row.share, nominal_.cone, {}, {}};  // what has no share is not asked
+  if (share_of(row.share, Effect::dd) > 0.0) m.facets = nominal_.facets(std::exp(row.log_facet_width));
+  if (share_of(row.share, Effect::fs) > 0.0) m.forward = nominal_.forward(l, std::exp(row.log_forward_width));
+  return m;
 }
 
 double Sampler::density(const Mixture& m, const Direction& l, const Direction& v) noexcept {

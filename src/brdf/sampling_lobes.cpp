@@ -89,7 +89,7 @@ double normal_slope(double u) noexcept {
 double projected_area(const FacetLobe& lobe, const Stretched& l) noexcept {
   const double cos_theta = l.direction.z;
   if (lobe.slopes == FacetSlopes::long_tailed) return 0.5 * l.length * (1.0 + cos_theta);
-  const double sin_theta = std::hypot(l.direction.x, l.direction.y);
+  const double sin_theta = std::sqrt(square(l.direction.x) + square(l.direction.y));
   return 0.5 * std::numbers::inv_sqrtpi * l.length * VisibleGaussian(cos_theta, sin_theta).total();
 }
 
@@ -99,7 +99,7 @@ struct Slopes {
 
 // Along and across the azimuth of the stretched L.
 Slopes gaussian_slopes(const Direction& l, double u1, double u2) noexcept {
-  const double sin_theta = std::hypot(l.x, l.y);
+  const double sin_theta = std::sqrt(square(l.x) + square(l.y));
   const double along = VisibleGaussian(l.z, sin_theta).slope(u1);
   const double across = normal_slope(u2);
   const double cos_phi = sin_theta > 0.0 ? l.x / sin_theta : 1.0;
@@ -122,7 +122,7 @@ struct Forward {
   double x, y;
 };
 Forward forward_of(const Direction& l) noexcept {
-  const double sin_theta = std::hypot(l.x, l.y);
+  const double sin_theta = std::sqrt(square(l.x) + square(l.y));
   return sin_theta > 0.0 ? Forward{-l.x / sin_theta, -l.y / sin_theta} : Forward{-1.0, 0.0};
 }
 

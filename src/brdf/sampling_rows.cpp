@@ -190,10 +190,11 @@ SamplingRow SamplingRows::at(double cos_i) const noexcept {
   const double t = position - static_cast<double>(below);
   const SamplingRow& a = rows_[below];
   const SamplingRow& b = rows_[below + 1];
+  const auto between = [t](double x, double y) { return x + t * (y - x); };  // std::lerp has branches
   SamplingRow row;
-  for (std::size_t e = 0; e < row.share.size(); ++e) row.share[e] = std::lerp(a.share[e], b.share[e], t);
-  row.log_facet_width = std::lerp(a.log_facet_width, b.log_facet_width, t);
-  row.log_forward_width = std::lerp(a.log_forward_width, b.log_forward_width, t);
+  for (std::size_t e = 0; e < row.share.size(); ++e) row.share[e] = between(a.share[e], b.share[e]);
+  row.log_facet_width = between(a.log_facet_width, b.log_facet_width);
+  row.log_forward_width = between(a.log_forward_width, b.log_forward_width);
   return row;
 }
 

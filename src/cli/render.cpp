@@ -180,9 +180,9 @@ std::string rays_text(const Result& r) {
   const auto share = [all](double part) { return all > 0.0 ? 100.0 * part / all : 0.0; };
   return fmt::format(
       "{} x {} pixels in {:.2f} s and {:.2f} s of preparation: {:.3g} million rays, {:.3g} million evaluations\n"
-      "time of all threads: rays {:.0f} %, reflectance {:.0f} %, drawing {:.0f} %, the rest {:.0f} %\n",
+      "processor time {:.2f} s: rays {:.0f} %, reflectance {:.0f} %, drawing {:.0f} %, the rest {:.0f} %\n",
       r.picture.width, r.picture.height, r.seconds, r.preparation_s, static_cast<double>(rays) * 1e-6,
-      static_cast<double>(r.work.evaluations) * 1e-6, share(r.work.trace_s), share(r.work.evaluate_s),
+      static_cast<double>(r.work.evaluations) * 1e-6, all, share(r.work.trace_s), share(r.work.evaluate_s),
       share(r.work.draw_s), share(r.work.other_s));
 }
 
@@ -211,7 +211,8 @@ std::string json_of(const Result& r) {
       {"rays",
        {{"camera", w.camera_rays}, {"path", w.path_rays}, {"mirror", w.mirror_rays}, {"shadow", w.shadow_rays}}},
       {"evaluations", w.evaluations},
-      {"thread_seconds", {{"trace", w.trace_s}, {"evaluate", w.evaluate_s}, {"draw", w.draw_s}, {"other", w.other_s}}}};
+      {"processor_seconds",
+       {{"trace", w.trace_s}, {"evaluate", w.evaluate_s}, {"draw", w.draw_s}, {"other", w.other_s}}}};
   if (r.plan) json["plan"] = nlohmann::ordered_json::parse(scene_plan_json(*r.plan));
   if (r.comparison) json["comparison"] = nlohmann::ordered_json::parse(comparison_json(*r.comparison));
   return json.dump(2) + '\n';

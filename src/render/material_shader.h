@@ -28,6 +28,8 @@ class MaterialShader {
   /// Whether it reflects anything but a mirror's image, and whether it has that.
   [[nodiscard]] bool has_lobes() const noexcept { return lobes_.has_value(); }
   [[nodiscard]] bool has_mirror() const noexcept { return has_mirror_; }
+  /// Whether `given` has both.
+  [[nodiscard]] bool branches() const noexcept { return branches_; }
 
   /// result[channel * size + i] in 1/sr, without coh.
   struct Scratch {
@@ -52,7 +54,7 @@ class MaterialShader {
     std::variant<BatchEvaluator<double>, BatchEvaluator<float>> evaluator;
   };
   Evaluator used_;
-  bool has_mirror_;
+  bool has_mirror_, branches_;
   std::optional<Lobes> lobes_;
   std::optional<Sampler> sampler_;
   double survival_ = 0.0;

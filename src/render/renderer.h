@@ -31,7 +31,7 @@ struct Picture {
   std::vector<double> radiance;  ///< [(row * width + column) * channels + channel], rows from the top; W/(m² sr)
 };
 
-/// What was done, and the seconds that it took, those of all threads together.
+/// What was done, and the seconds of processor time that it took, of all threads together.
 struct RenderWork {
   std::uint64_t camera_rays = 0, path_rays = 0, mirror_rays = 0, shadow_rays = 0;
   std::uint64_t evaluations = 0;  ///< of the reflectance for a pair of directions, all channels at once

@@ -125,9 +125,10 @@ void TileRenderer::go_on(std::size_t material, int bounce) {
     const Path& path = now_.paths[i];
     bool mirror = mirrors, lobe = lobes;
     double chance = 1.0;
-    if (mirror && lobe && bounce >= first_roulette) {
-      mirror = random_pair(path.key, for_choice, path.sample)[1] < 0.5;
-      lobe = !mirror;
+    if (shader.branches() && bounce >= first_roulette) {
+      const bool first = random_pair(path.key, for_choice, path.sample)[1] < 0.5;
+      mirror = mirror && first;
+      lobe = lobe && !first;
       chance = 0.5;
     }
     if (mirror) reflect_in_mirror(material, i, chance);

@@ -2,8 +2,6 @@
 // The paths of one tile, all of a bounce at a time: rays are traced together, hits grouped by material, and each
 // material evaluated for all its hits at once. Private to the renderer.
 
-#include <chrono>
-
 #include "light_sampler.h"
 #include "material_shader.h"
 #include "renderer.h"
@@ -102,7 +100,7 @@ class TileRenderer {
   std::vector<double> weights_, factors_;  // of one vertex, for the observer
   std::span<double> radiance_;
   RenderWork work_;
-  std::chrono::steady_clock::time_point since_;
+  double since_ = 0.0;
 };
 
 }  // namespace goniofit

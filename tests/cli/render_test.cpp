@@ -131,6 +131,7 @@ TEST_F(Render, BadUsage) {
       {{"m.json", "-o", "p.png", "--models", "phong"}, "\"phong\" is no model and names no effects"},
       {{"m.json", "-o", "p.png", "--models", "coh"}, "\"coh\" is no model and names no effects"},
       {{"m.json", "-o", "p.png", "--light-angle", "181"}, "--light-angle: 181"},
+      {{"m.json", "-o", "p.png", "--sky", "-1"}, "--sky: -1"},
       {{"none.toml", "-o", "p.png"}, "none.toml"},
       {{"none.json", "-o", "p.png"}, "none.json"},
   };

@@ -352,6 +352,25 @@ TEST(Determinism, AnotherMaterialMeetsTheSameRandomNumbers) {
   EXPECT_LT(difference, 2e-4 * sum);
 }
 
+// A plan that leaves coh out changes what coh brought, and nothing else: everywhere darker, and where no mirror is met,
+// even by way of other surfaces, the same to the last digit.
+TEST(Determinism, WithoutAMirrorTheOtherPathsStay) {
+  Scene scene = mixed_scene();
+  scene.image.max_bounces = 6;
+  const Picture given = rendered(scene).picture;
+  std::vector<RenderMaterial> others = given_materials(scene);
+  others[0].material.components.erase(Effect::coh);
+  const Picture without = render(scene, others).picture;
+  std::size_t same = 0, darker = 0;
+  for (std::size_t i = 0; i < given.radiance.size(); ++i) {
+    EXPECT_LE(without.radiance[i], given.radiance[i] * (1.0 + 1e-12));
+    same += without.radiance[i] == given.radiance[i] ? 1 : 0;
+    darker += without.radiance[i] < given.radiance[i] ? 1 : 0;
+  }
+  EXPECT_GT(same, given.radiance.size() / 4);
+  EXPECT_GT(darker, given.radiance.size() / 20);
+}
+
 TEST(Determinism, MaterialsMustBeAsManyAndOfTheSameChannels) {
   const Scene scene = mixed_scene();
   std::vector<RenderMaterial> others = given_materials(scene);

@@ -184,6 +184,7 @@ Json Plots::curves() const {
   }
   if (anisotropic_) plan.phi_i_deg = first_azimuth();
   out["log"] = plan.log;
+  out["theta_r_range"] = {plan.theta_min_deg, plan.theta_max_deg};
   plan.not_shown = 0;  // the page's reader chooses the axis
   std::string note = plot_remarks(plan);
   std::size_t readings = 0;

@@ -20,11 +20,12 @@ export function goniofit(...words) {
 }
 
 const quiet = ["--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync", "--disable-quic"];
-// Drawn by the processor: machines of tests have no other.
-export const webgl = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
+const flat = ["--disable-gpu", "--disable-3d-apis"];
+// Drawn by the processor, which is all that a machine of tests has, and slow.
+const spatial = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
 
-export const launch = (more = webgl) =>
-  chromium.launch({ executablePath: CHROMIUM, args: ["--no-sandbox", ...quiet, ...more] });
+export const launch = ({ webgl }) =>
+  chromium.launch({ executablePath: CHROMIUM, args: ["--no-sandbox", ...quiet, ...(webgl ? spatial : flat)] });
 
 /// Opens the page of a file of `scratch`; `complaints` gathers errors, refused and other requests as they come.
 export async function open(browser, file, viewport = { width: 1280, height: 900 }) {

@@ -12,16 +12,19 @@ if (!process.env.CHROMIUM || process.env.CHROMIUM.endsWith("NOTFOUND")) {
 const { goniofit, launch, open, picture, scratch, show, source } = await import("./browser.mjs");
 
 const scan = source("data/garnet_red_paint_13.csv");
-let browser;
+let browser; // without WebGL, which few tests need
+let spatial;
 
 before(async () => {
   goniofit("fit", scan, "--n", "1.7", "--components", "auto", "--profile", "-o", "m.json", "--report", "fit.html");
   goniofit("report", "m.json", scan, "-o", "material.html");
-  browser = await launch();
+  browser = await launch({ webgl: false });
+  spatial = await launch({ webgl: true });
 });
 
 after(async () => {
   await browser?.close();
+  await spatial?.close();
   rmSync(scratch, { recursive: true });
 });
 
@@ -30,7 +33,7 @@ const layout = (page, section, index) => plotOf(page, section, index).evaluate((
 const choose = (page, name, value) => page.locator(`label[for="${name}-${value}"]`).click();
 
 test("opens at once, asks for nothing, complains of nothing", async () => {
-  const { page, complaints, milliseconds } = await open(browser, "fit.html");
+  const { page, complaints, milliseconds } = await open(spatial, "fit.html");
   console.log(`opened in ${milliseconds.toFixed(0)} ms`);
   assert.ok(milliseconds < 6000, "three times what a machine of its own needs at most");
   await page.screenshot({ path: picture("first-screen.png") });
@@ -111,7 +114,7 @@ test("the maps share a scale, follow the choices and read out", async () => {
 });
 
 test("the lobe turns, by buttons too, and its radius can be chosen", async () => {
-  const { page, complaints } = await open(browser, "fit.html");
+  const { page, complaints } = await open(spatial, "fit.html");
   await show(page, "lobes");
   const highest = () => plotOf(page, "lobes").evaluate((node) => Math.max(...node.data[0].z.flat()));
   const [root, eye] = [await highest(), (await layout(page, "lobes")).scene.camera.eye];
@@ -141,7 +144,7 @@ test("the keyboard suffices", async () => {
 });
 
 test("fits a phone", async () => {
-  const { page, complaints } = await open(browser, "fit.html", { width: 390, height: 844 });
+  const { page, complaints } = await open(spatial, "fit.html", { width: 390, height: 844 });
   await page.screenshot({ path: picture("phone.png") });
   for (const id of ["curves", "maps", "lobes"]) {
     await show(page, id);
@@ -153,7 +156,7 @@ test("fits a phone", async () => {
 });
 
 test("prints, without its controls and with plots that were never in view", async () => {
-  const { page, complaints } = await open(browser, "fit.html");
+  const { page, complaints } = await open(spatial, "fit.html");
   const pdf = await page.pdf({ path: picture("paper.pdf"), format: "A4" });
   assert.ok(pdf.length > 50000);
   assert.ok(await plotOf(page, "maps").evaluate((node) => Boolean(node.data)), "drawn for the printer");
@@ -164,12 +167,11 @@ test("prints, without its controls and with plots that were never in view", asyn
 });
 
 test("does without WebGL and says so", async () => {
-  const plain = await launch(["--disable-3d-apis"]);
-  const { page, complaints } = await open(plain, "fit.html");
+  const { page, complaints } = await open(browser, "fit.html");
   assert.match(await page.locator("#lobes").textContent(), /WebGL is off/);
   await show(page, "maps");
   assert.deepEqual(complaints, []);
-  await plain.close();
+  await page.close();
 });
 
 test("names that are markup stay names", async () => {

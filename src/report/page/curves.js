@@ -99,9 +99,10 @@ export function curvesSection() {
     const range = valueRange(all, log);
     const end = residualRange(all);
     const narrow = plot.clientWidth < 560;
+    const [low, high] = curves.theta_r_range;
     draw(plot, traces(all, shown, end, log), {
       xaxis: axis({
-        title: "θᵣ / °, forward to the right", anchor: "y2", range: [-91, 91], tickvals: [-90, -60, -30, 0, 30, 60, 90],
+        title: "θᵣ / °, forward to the right", anchor: "y2", range: curves.theta_r_range, dtick: high - low > 100 ? 30 : 15,
       }),
       yaxis: axis({
         title: "BRDF / sr⁻¹", domain: [0.33, 1], range, type: log ? "log" : "linear",

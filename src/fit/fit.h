@@ -114,8 +114,10 @@ struct FitResult {
   std::vector<std::string> warnings;          ///< what is wrong or weak, each with what to do next
 };
 
-/// Fits `scan` (all of its channels). Deterministic. Throws Error (bad_input) where settings and scan contradict each
-/// other (unknown parameter, bounds crossed, wavelength missing for coh ...), naming the parameter.
+/// Fits `scan` (all of its channels). Deterministic. Scans of more than 100000 readings go part by part where the
+/// settings allow it (Problem::Hold), in some three times the scan's memory; the notes say what then is not from all
+/// readings. Throws Error (bad_input) where settings and scan contradict each other (unknown parameter, bounds crossed,
+/// wavelength missing for coh ...), naming the parameter.
 [[nodiscard]] FitResult fit(const Scan& scan, const FitSettings& settings);
 
 /// Fills result.reflectance at the scan's incidence angles (to 0.1 degree; at most `most` of them, evenly chosen), and

@@ -1,6 +1,7 @@
 #pragma once
-// Which readings of a very large scan the global search looks at. The loss over the shape has the same dips seen
-// through some ten thousand well chosen readings as through a million; the polish reads all of them and decides.
+// Which readings of a very large scan the global search looks at, and the noise of its residuals is told from. The loss
+// over the shape has the same dips seen through some ten thousand well chosen readings as through a million; the polish
+// reads all of them and decides.
 //
 // All readings that hold more than their part of the squared signal stay, since they rule the loss. The others are
 // drawn by strata: of their distance from the mirror direction, in steps of a lobe's width, and of their grazing angle;

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "io/material_io.h"
+#include "io/png_file.h"
 #include "report/digest.h"
 #include "report/fit_report.h"
 #include "report/fit_rows.h"
@@ -17,7 +18,6 @@
 #include "report/objective_text.h"
 #include "report/page.h"
 #include "report/page_plots.h"
-#include "report/png_image.h"
 #include "report/profile_report.h"
 #include "report/sphere_picture.h"
 #include "report/uncertainty_report.h"
@@ -116,7 +116,7 @@ Json parameter_text(const FittedParameter& p) {
 
 Json sphere(const Material& material) {
   const SpherePicture picture = sphere_picture(material);
-  return {{"png", "data:image/png;base64," + base64(png_of_rgb(picture.size, picture.size, picture.rgb))},
+  return {{"png", "data:image/png;base64," + base64(to_png({picture.size, picture.size, picture.rgb}))},
           {"size", picture.size},
           {"alt", "A sphere of the material under one light from the upper left"},
           {"caption", fmt::format("Under one light from the upper left; {}. Exposed {:.2g} times as long as for white.",

@@ -3,7 +3,6 @@
 #include "report/sphere_picture.h"
 
 #include <gtest/gtest.h>
-#include <png.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +10,6 @@
 
 #include "brdf/paper_samples.h"
 #include "geometry/angles.h"
-#include "report/png_image.h"
 
 namespace goniofit::test {
 namespace {
@@ -90,20 +88,6 @@ TEST(SpherePicture, ChoosesBandsByNameThenByWavelength) {
   EXPECT_EQ(spectral.channels[bands.channel[2]].name, "460nm");
   EXPECT_EQ(bands.text, "610nm, 550nm and 460nm as red, green and blue");
   EXPECT_EQ(picture_bands(lambert()).text, "grey as grey");
-}
-
-TEST(PngImage, ReadsBackAsWritten) {
-  const std::vector<std::uint8_t> pixels{255, 0, 0, 0, 255, 0, 0, 0, 255, 1, 2, 3, 40, 50, 60, 255, 255, 255};
-  const std::string bytes = png_of_rgb(3, 2, pixels);
-  png_image image{};
-  image.version = PNG_IMAGE_VERSION;
-  ASSERT_NE(png_image_begin_read_from_memory(&image, bytes.data(), bytes.size()), 0);
-  image.format = PNG_FORMAT_RGB;
-  EXPECT_EQ(image.width, 3U);
-  EXPECT_EQ(image.height, 2U);
-  std::vector<std::uint8_t> back(PNG_IMAGE_SIZE(image));
-  ASSERT_NE(png_image_finish_read(&image, nullptr, back.data(), 0, nullptr), 0);
-  EXPECT_EQ(back, pixels);
 }
 
 }  // namespace

@@ -71,6 +71,18 @@ std::vector<StandingImage> standing_images(const Scene& scene, const SceneSurvey
   return standing;
 }
 
+double indirect_part(const SceneSurvey& survey, const MaterialSurvey& s, std::size_t channels) {
+  const std::vector<double> from = lit_from(survey.radiance, channels);
+  Moments squares;
+  for (std::size_t k = 0; k < survey.radiance.size(); ++k) {
+    const double radiance = survey.radiance[k];
+    if (!(radiance > from[k % channels])) continue;
+    const double part = s.from_surfaces[k] / radiance;
+    squares.add(std::min(1.0, s.sent[k] / radiance), part * part);
+  }
+  return std::sqrt(squares.mean() + 3.0 * squares.standard_error());
+}
+
 ErrorSamples image_error_samples(const MaterialSurvey& s, std::span<const StandingImage> images,
                                  double solid_angle_sr) {
   ErrorSamples samples{.theta_i_deg = {},

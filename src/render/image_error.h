@@ -22,6 +22,10 @@ struct StandingImage {
                                                          const MaterialSurvey& of_material, const Material& material,
                                                          double least);
 
+/// The relative RMS change of the image, likewise over the pixels that the material sends light to, where it no longer
+/// sends on what other surfaces sent to it.
+[[nodiscard]] double indirect_part(const SceneSurvey& survey, const MaterialSurvey& of_material, std::size_t channels);
+
 /// Where ImageError reads a material's values: the survey's directions, mirror directions those of its mirrors, then of
 /// the images.
 [[nodiscard]] ErrorSamples image_error_samples(const MaterialSurvey& of_material, std::span<const StandingImage> images,

@@ -38,7 +38,8 @@ std::optional<Material> without_mirror(const Material& material) {
 MaterialShader::MaterialShader(const Material& given, const RenderMaterial& used)
     : used_(used.material),
       has_mirror_(used.material.components.has(Effect::coh)),
-      branches_(given.components.has(Effect::coh) && without_mirror(given)) {
+      branches_(given.components.has(Effect::coh) && without_mirror(given)),
+      follows_(used.follows) {
   if (const auto lobes = without_mirror(used.material)) {
     if (used.single_precision) {
       lobes_ = Lobes{BatchEvaluator<float>(*lobes, used.compile)};

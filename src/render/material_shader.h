@@ -28,6 +28,7 @@ class MaterialShader {
   /// Whether it reflects anything but a mirror's image, and whether it has that.
   [[nodiscard]] bool has_lobes() const noexcept { return lobes_.has_value(); }
   [[nodiscard]] bool has_mirror() const noexcept { return has_mirror_; }
+  [[nodiscard]] bool follows() const noexcept { return follows_; }
   /// Whether `given` has both.
   [[nodiscard]] bool branches() const noexcept { return branches_; }
 
@@ -54,7 +55,7 @@ class MaterialShader {
     std::variant<BatchEvaluator<double>, BatchEvaluator<float>> evaluator;
   };
   Evaluator used_;
-  bool has_mirror_, branches_;
+  bool has_mirror_, branches_, follows_;
   std::optional<Lobes> lobes_;
   std::optional<Sampler> sampler_;
   double survival_ = 0.0;

@@ -8,7 +8,7 @@
 namespace goniofit {
 
 std::vector<double> lit_from(std::span<const double> radiance, std::size_t channels) {
-  constexpr double part_of_mean = 1e-3;
+  constexpr double part_of_mean = 1e-2;  // below, a screen shows black
   std::vector<double> from(channels, 0.0);
   for (std::size_t i = 0; i < radiance.size(); ++i) from[i % channels] += radiance[i];
   for (double& f : from) f *= part_of_mean * static_cast<double>(channels) / static_cast<double>(radiance.size());

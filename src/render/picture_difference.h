@@ -5,7 +5,7 @@
 
 namespace goniofit {
 
-/// Over the lit values of the reference: a channel of a pixel above 1/1000 of the channel's mean over all pixels.
+/// Over the lit values of the reference: a channel of a pixel above 1/100 of the channel's mean over all pixels.
 struct PictureDifference {
   double rms_relative = 0.0;  ///< root of the mean of (difference / reference)²
   double max_relative = 0.0;

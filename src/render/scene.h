@@ -51,6 +51,7 @@ struct RenderMaterial {
   Material material;
   CompileSettings compile{};
   bool single_precision = false;
+  bool follows = true;  ///< the light that other surfaces send to it; else that of lights alone
 };
 
 struct SceneMaterial {

@@ -18,6 +18,8 @@ struct MaterialPlan {
   std::optional<Plan> plan{};  ///< null for what is not planned; its worst_l1 is the relative RMS error of the image,
                                ///< pixels by the part of their light that the material sends
   std::string why_not{};       ///< then: not seen, a peer model, ...
+  bool follows = true;         ///< light that other surfaces send to it
+  double indirect = 0.0;       ///< relative RMS change of the image without that, three standard errors included
   /// Of one pair of directions in one channel: as planned, and with all effects and exact terms, in double precision.
   double ns = 0.0, ns_exact = 0.0;
   MaterialSurvey survey{};

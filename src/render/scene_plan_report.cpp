@@ -40,24 +40,35 @@ std::string simpler_terms_text(const Plan& p) {
   return text;
 }
 
+std::string interreflection_text(const MaterialPlan& m) {
+  if (m.follows) return "light from other surfaces kept: leaving it out would change " + percent_text(m.indirect);
+  return "light from other surfaces left out: changes " + (m.indirect > 0.0 ? percent_text(m.indirect) : "0 %");
+}
+
 std::string details_of(const MaterialPlan& m, const ReportStyle& style) {
   std::string text = tinted(printable(m.name), Tint::bold, style.color);
-  if (!m.plan) return text + ": as it is, since " + m.why_not + "\n\n";
+  if (!m.plan) {
+    text += ": as it is, since " + m.why_not + "\n";
+    return text + (m.survey.seen ? "  " + interreflection_text(m) + "\n\n" : "\n");
+  }
   text += fmt::format(": {}; {}\n", effects_text(m.plan->material.components), angles_text(m.plan->domain));
   for (const PlanLine& line : m.plan->lines) {
     text += "  " + tinted(line.text(), line.simplified ? Tint::good : Tint::none, style.color) + "\n";
   }
-  return text + "\n";
+  return text + "  " + interreflection_text(m) + "\n\n";
 }
 
 }  // namespace
 
-std::string left_out_text(const Plan& plan) {
+std::string left_out_text(const MaterialPlan& plan) {
   std::string text;
-  for (const PlanLine& line : plan.lines) {
-    const bool gone = line.simplified && (line.choice == "left out" || line.choice == "none");
-    if (gone) text += (text.empty() ? "" : ", ") + line.subject;
+  const auto add = [&text](const std::string& what) { text += (text.empty() ? "" : ", ") + what; };
+  if (plan.plan) {
+    for (const PlanLine& line : plan.plan->lines) {
+      if (line.simplified && (line.choice == "left out" || line.choice == "none")) add(line.subject);
+    }
   }
+  if (plan.survey.seen && !plan.follows) add("interreflection");
   return text.empty() ? "nothing" : text;
 }
 
@@ -75,7 +86,7 @@ std::string scene_plan_text(const ScenePlan& plan, const ReportStyle& style) {
   for (const MaterialPlan& m : plan.materials) {
     if (!m.plan) continue;
     const Plan& p = *m.plan;
-    table.add_row({printable(m.name), effects_text(p.material.components), left_out_text(p), simpler_terms_text(p),
+    table.add_row({printable(m.name), effects_text(p.material.components), left_out_text(m), simpler_terms_text(p),
                    percent_text(p.error.worst_l1), fmt::format("{:.2g}", m.ns), fmt::format("{:.2g}", m.ns_exact),
                    fmt::format("{:.2g} x", m.ns_exact / m.ns)});
   }
@@ -102,10 +113,12 @@ std::string scene_plan_json(const ScenePlan& plan) {
       entry["ns_per_evaluation"] = m.ns;
       entry["ns_exact"] = m.ns_exact;
       entry["planned"] = Json::parse(plan_json(*m.plan));
-      entry["left_out"] = left_out_text(*m.plan);
     } else {
       entry["why_not"] = m.why_not;
     }
+    entry["left_out"] = left_out_text(m);
+    entry["follows"] = m.follows;
+    entry["indirect"] = m.indirect;
     entry["material"] = Json::parse(to_json(plan.planned[i].material));
     out["materials"].push_back(std::move(entry));
   }

@@ -26,10 +26,15 @@ class Recorder final : public PathObserver {
     std::vector<double> weights;              // [vertex * channels + channel]
   };
 
-  Recorder(std::size_t materials, std::size_t channels) : channels_(channels), lobes_(materials), mirrors_(materials) {}
+  Recorder(std::size_t materials, std::size_t channels, std::size_t pixels)
+      : channels_(channels),
+        lobes_(materials),
+        mirrors_(materials),
+        sent_(materials, std::vector<double>(pixels * channels)),
+        from_surfaces_(sent_) {}
 
   [[nodiscard]] std::uint32_t begins(std::size_t pixel) override {
-    return add({.pixel = static_cast<std::uint32_t>(pixel), .parent = none, .of = nullptr, .vertex = 0});
+    return add({.pixel = static_cast<std::uint32_t>(pixel), .parent = none, .material = 0, .of = nullptr, .vertex = 0});
   }
 
   [[nodiscard]] std::uint32_t goes_on(const PathVertex& x, bool mirror, std::span<const double> f) override {
@@ -37,18 +42,25 @@ class Recorder final : public PathObserver {
     const auto vertex = static_cast<std::uint32_t>(of.pixel.size());
     write(of, x, none);
     of.weights.insert(of.weights.end(), f.begin(), f.end());  // the factor itself, until finish()
-    return add({.pixel = stretches_[x.path].pixel, .parent = x.path, .of = &of, .vertex = vertex});
+    return add({stretches_[x.path].pixel, x.path, x.material, &of, vertex});
   }
 
   void lit(const PathVertex& x, std::size_t light, std::span<const double> weight, std::span<const double> f) override {
     Vertices& of = lobes_[x.material];
     write(of, x, static_cast<std::uint32_t>(light));
     of.weights.insert(of.weights.end(), weight.begin(), weight.end());
-    for (std::size_t c = 0; c < channels_; ++c) gathered_[x.path * channels_ + c] += weight[c] * f[c];
+    const std::uint32_t pixel = stretches_[x.path].pixel;
+    for (std::size_t c = 0; c < channels_; ++c) {
+      gathered_[x.path * channels_ + c] += weight[c] * f[c];
+      sent_[x.material][pixel * channels_ + c] += weight[c] * f[c];
+    }
   }
 
   void met_light(std::uint32_t path, std::span<const double> amount) override {
-    for (std::size_t c = 0; c < channels_; ++c) gathered_[path * channels_ + c] += amount[c];
+    for (std::size_t c = 0; c < channels_; ++c) {
+      gathered_[path * channels_ + c] += amount[c];
+      met_[path * channels_ + c] += amount[c];
+    }
   }
 
   // Stretches come after the ones that they leave: backwards, each is complete when its turn comes.
@@ -59,6 +71,8 @@ class Recorder final : public PathObserver {
       for (std::size_t c = 0; c < channels_; ++c) {
         const double amount = gathered_[i * channels_ + c];
         gathered_[s.parent * channels_ + c] += amount;
+        sent_[s.material][s.pixel * channels_ + c] += amount;
+        from_surfaces_[s.material][s.pixel * channels_ + c] += amount - met_[i * channels_ + c];
         double& factor = s.of->weights[s.vertex * channels_ + c];
         factor = factor > 0.0 ? amount / factor : 0.0;
       }
@@ -67,16 +81,20 @@ class Recorder final : public PathObserver {
 
   [[nodiscard]] const Vertices& lobes(std::size_t material) const { return lobes_[material]; }
   [[nodiscard]] const Vertices& mirrors(std::size_t material) const { return mirrors_[material]; }
+  [[nodiscard]] std::vector<double>& sent(std::size_t material) { return sent_[material]; }
+  [[nodiscard]] std::vector<double>& from_surfaces(std::size_t material) { return from_surfaces_[material]; }
 
  private:
   struct Stretch {
     std::uint32_t pixel, parent;
-    Vertices* of;  // whose vertex it left from
+    std::size_t material;  // that it left from
+    Vertices* of;          // and there, which vertex
     std::uint32_t vertex;
   };
   std::uint32_t add(const Stretch& s) {
     stretches_.push_back(s);
     gathered_.insert(gathered_.end(), channels_, 0.0);
+    met_.insert(met_.end(), channels_, 0.0);
     return static_cast<std::uint32_t>(stretches_.size() - 1);
   }
   void write(Vertices& to, const PathVertex& x, std::uint32_t light) {
@@ -88,8 +106,9 @@ class Recorder final : public PathObserver {
 
   std::size_t channels_;
   std::vector<Stretch> stretches_;
-  std::vector<double> gathered_;  // [stretch * channels + channel]
+  std::vector<double> gathered_, met_;  // [stretch * channels + channel]: all, and what of it lights sent on the way
   std::vector<Vertices> lobes_, mirrors_;
+  std::vector<std::vector<double>> sent_, from_surfaces_;
 };
 
 // Which pixels are kept of a material: all, or so many at random that their vertices are few enough.
@@ -206,7 +225,7 @@ Scene in_small(const Scene& scene, std::size_t pixels, std::size_t samples, std:
 SceneSurvey survey(const Scene& scene, std::span<const RenderMaterial> materials, const SurveySettings& settings) {
   const std::size_t channels = scene.channels.size();
   const Scene small = in_small(scene, settings.pixels, settings.samples, subkey(settings.seed, "survey"));
-  Recorder recorder(scene.materials.size(), channels);
+  Recorder recorder(scene.materials.size(), channels, small.image.width * small.image.height);
   const Rendering rendering = render(small, materials, {.threads = 1, .observer = &recorder});
   recorder.finish();
   SceneSurvey result{small.image.width, small.image.height, small.image.seed, rendering.picture.radiance, {}};
@@ -217,6 +236,8 @@ SceneSurvey survey(const Scene& scene, std::span<const RenderMaterial> materials
     MaterialSurvey s;
     s.lobes = kept_of(lobes, kept, channels);
     s.mirrors = kept_of(mirrors, kept, channels);
+    s.sent = std::move(recorder.sent(m));
+    s.from_surfaces = std::move(recorder.from_surfaces(m));
     s.seen = s.lobes.size() + s.mirrors.size() > 0;
     if (s.seen) s.domain = domain_of(s.lobes, s.mirrors);
     if (materials[m].material.components.has(Effect::coh)) s.images = images_of(scene, lobes, small.image.width);

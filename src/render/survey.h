@@ -16,7 +16,7 @@ namespace goniofit {
 struct SurveySettings {
   std::size_t pixels = 4096;          ///< about as many, in the image's shape
   std::size_t samples = 4;            ///< a pixel
-  std::size_t most_vertices = 16384;  ///< kept of a material: whole pixels are dropped at random beyond
+  std::size_t most_vertices = 32768;  ///< kept of a material: whole pixels are dropped at random beyond
   std::uint64_t seed = 1;
 };
 
@@ -43,6 +43,9 @@ struct MaterialSurvey {
   PathFactors lobes{};    ///< values f of all effects but coh
   PathFactors mirrors{};  ///< what coh reflects, k_dd F S exp(-g), at l = mirrored(v)
   std::vector<MirrorImage> images{};
+  /// What of each pixel's radiance leaves the material at some point of its path, and what of that came to it by way of
+  /// other surfaces: [pixel * channels + channel].
+  std::vector<double> sent{}, from_surfaces{};
 };
 
 struct SceneSurvey {

@@ -115,7 +115,7 @@ void TileRenderer::tell_of_arrivals(std::size_t material, std::size_t light, std
 void TileRenderer::go_on(std::size_t material, int bounce) {
   const MaterialShader& shader = context_.materials[material];
   // Behind the last reflection nothing is worth a ray but lights that one can run into.
-  const bool last = bounce + 1 == context_.scene.image.max_bounces;
+  const bool last = bounce + 1 == context_.scene.image.max_bounces || !shader.follows();
   const bool mirrors = shader.has_mirror() && (!last || mirrored_lights_);
   const bool lobes = shader.has_lobes() && (!last || (sized_lights_ && context_.sampling != LightSampling::lights));
   arrivals_.clear();
@@ -162,7 +162,8 @@ void TileRenderer::reflect_in_mirror(std::size_t material, std::uint32_t i, doub
                          .key = pixel_samples::combined(path.key, ~std::uint64_t{0}),
                          .sample = path.sample,
                          .normal = s.shading.z,
-                         .drawn = path.drawn});
+                         .drawn = path.drawn,
+                         .lights_only = !shader.follows()});
   ++work_.mirror_rays;
   if (context_.observer == nullptr) return;
   factors_.clear();
@@ -200,7 +201,8 @@ void TileRenderer::reflect_by_model(const MaterialShader& shader, std::uint32_t 
                          .normal = surfaces_[i].shading.z,
                          .pdf = drawn->pdf,
                          .light_chance = light_chance,
-                         .drawn = true});
+                         .drawn = true,
+                         .lights_only = !shader.follows()});
   next_.throughput.insert(next_.throughput.end(), channels_, 0.0);
 }
 

@@ -155,7 +155,7 @@ void TileRenderer::find_surfaces() {
   for (auto& paths : of_material_) paths.clear();
   const std::vector<Object>& objects = context_.scene.objects;
   for (std::uint32_t i = 0; i < now_.size(); ++i) {
-    if (hits_[i].surface >= objects.size()) continue;
+    if (hits_[i].surface >= objects.size() || now_.paths[i].lights_only) continue;
     surfaces_[i] = context_.tracer.surface_point(now_.rays[i], hits_[i]);
     to_eye_[i] = in_frame(surfaces_[i].shading, -now_.rays[i].direction);
     const bool seen = to_eye_[i].z > 0.0 && dot(surfaces_[i].normal, now_.rays[i].direction) < 0.0;

@@ -43,6 +43,7 @@ class TileRenderer {
     double pdf = 0.0;            // of its direction by the model's sampling; 0 for the camera's and mirrors' rays
     double light_chance = 1.0;   // with which that surface drew each light
     bool drawn = false;          // whether any of its directions was drawn, not the camera's or a mirror's
+    bool lights_only = false;    // surfaces that it meets are not asked
     std::uint32_t observed = 0;  // the observer's name of it
   };
   struct Paths {

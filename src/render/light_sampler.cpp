@@ -156,12 +156,7 @@ std::optional<LightSample> LightSampler::sample_area(const Vec3& point, const st
 
 std::optional<LightSample> LightSampler::sample(const Vec3& point, const Vec3& normal,
                                                 const std::array<double, 2>& u) const noexcept {
-  if (point_ != nullptr) {
-    const Vec3 to = point_->position - point;
-    const double distance = length(to);
-    if (!(distance > 0.0)) return std::nullopt;
-    return LightSample{(1.0 / distance) * to, distance, 1.0 / (distance * distance), 0.0, point_->intensity.data()};
-  }
+  if (point_ != nullptr) return sample_of(*point_, point);
   if (sun_ != nullptr) return LightSample{-normalised(sun_->direction), endless, 1.0, 0.0, sun_->irradiance.data()};
   return area_ != nullptr ? sample_area(point, u) : sample_sky(normal, u);
 }
@@ -201,6 +196,14 @@ std::optional<LightSampler::Emission> LightSampler::disc(const Ray& ray, double 
     return Emission{1.0 / (pi * sine * sine), 0.0, sun_->irradiance.data()};
   }
   return std::nullopt;
+}
+
+LightSampler::DiscView LightSampler::disc_from(const Vec3& point) const noexcept {
+  if (sun_ != nullptr) return {-normalised(sun_->direction), radians(0.5 * sun_->diameter_deg)};
+  const Vec3 to = point_->position - point;
+  const double distance = length(to);
+  if (!(distance > point_->radius)) return {{0.0, 0.0, 1.0}, pi};  // it may be anywhere
+  return {(1.0 / distance) * to, std::asin(point_->radius / distance)};
 }
 
 }  // namespace goniofit

@@ -34,6 +34,17 @@ class LightSampler {
   [[nodiscard]] std::optional<LightSample> sample(const Vec3& point, const Vec3& normal,
                                                   const std::array<double, 2>& u) const noexcept;
 
+  /// Null for other lights.
+  [[nodiscard]] const PointLight* point() const noexcept { return point_; }
+  /// sample() of a point light; here, so that the loop over many points has it within.
+  [[nodiscard]] static std::optional<LightSample> sample_of(const PointLight& light, const Vec3& point) noexcept {
+    const Vec3 to = light.position - point;
+    const double square = dot(to, to);
+    if (!(square > 0.0)) return std::nullopt;
+    const double distance = std::sqrt(square);
+    return LightSample{(1.0 / distance) * to, distance, 1.0 / square, 0.0, light.intensity.data()};
+  }
+
   /// What a ray brings from it: the density with which sample() draws its direction, and radiance = scale * spectrum.
   struct Emission {
     double scale, pdf;
@@ -44,6 +55,12 @@ class LightSampler {
   /// The disc of a point or directional light, for rays of the camera and of mirrors; null where the ray passes it by
   /// or meets something before, at `distance`.
   [[nodiscard]] std::optional<Emission> disc(const Ray& ray, double distance) const noexcept;
+  /// Where a point sees that disc: about this direction, within this angle in radians.
+  struct DiscView {
+    Vec3 direction;
+    double radius;
+  };
+  [[nodiscard]] DiscView disc_from(const Vec3& point) const noexcept;
 
  private:
   [[nodiscard]] std::optional<LightSample> sample_area(const Vec3& point,

@@ -116,8 +116,9 @@ Rendering render(const Scene& scene, std::span<const RenderMaterial> materials, 
   result.notes = notes_on(scene, shaders);
   result.preparation_s = seconds_since(start);
 
+  const ClearViews clear_views(scene);
   const RenderContext context{
-      scene, tracer, lights, shaders, settings.sampling, settings.observer, camera_frame(scene.camera)};
+      scene, tracer, lights, clear_views, shaders, settings.sampling, settings.observer, camera_frame(scene.camera)};
   const std::vector<Tile> tiles = tiles_of(scene.image);
   RendererPool pool(context);
   const Clock::time_point first_ray = Clock::now();

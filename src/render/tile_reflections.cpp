@@ -37,15 +37,22 @@ void TileRenderer::draw_light(std::size_t material, std::size_t light, double ch
                               const std::vector<std::uint32_t>& hits) {
   const LightSampler& sampler = context_.lights[light];
   if (context_.sampling == LightSampling::model && !sampler.is_delta()) return;
+  const bool delta = sampler.is_delta();
+  const PointLight* const point = sampler.point();
   shadow_rays_.clear();
+  shadow_ray_of_.clear();
   arrivals_.clear();
   from_light_.clear();
   lap(&RenderWork::other_s);
   for (const std::uint32_t i : hits) {
     const Path& path = now_.paths[i];
     const SurfacePoint& s = surfaces_[i];
-    const auto u = sampler.is_delta() ? std::array{0.0, 0.0} : random_pair(path.key, for_lights + light, path.sample);
-    const auto drawn = sampler.sample(s.position, s.shading.z, u);
+    const auto draw = [&] {
+      if (point != nullptr) return LightSampler::sample_of(*point, s.position);
+      const auto u = delta ? std::array{0.0, 0.0} : random_pair(path.key, for_lights + light, path.sample);
+      return sampler.sample(s.position, s.shading.z, u);
+    };
+    const auto drawn = draw();
     if (!drawn) continue;
     const Direction l = in_frame(s.shading, drawn->direction);
     if (!(l.z > 0.0) || !(dot(drawn->direction, s.normal) > 0.0)) continue;
@@ -54,25 +61,32 @@ void TileRenderer::draw_light(std::size_t material, std::size_t light, double ch
       const double pdf = chance * drawn->pdf;
       weight *= pdf / (pdf + context_.materials[material].pdf(l, to_eye_[i]));
     }
-    // It starts as much nearer to the light as it starts off the surface, at most.
-    shadow_rays_.push_back({off_surface(s), drawn->direction, drawn->distance - 2.0 * s.clearance});
+    if (!context_.clear_views.has(hits_[i].surface, light)) {
+      // It starts as much nearer to the light as it starts off the surface, at most.
+      shadow_rays_.push_back({off_surface(s), drawn->direction, drawn->distance - 2.0 * s.clearance});
+      shadow_ray_of_.push_back(static_cast<std::uint32_t>(arrivals_.size()));
+    }
     arrivals_.push_back({i, weight, drawn->spectrum});
     from_light_.push_back(l);
   }
   lap(&RenderWork::draw_s);
-  add_arrivals(material, light, sampler.is_delta());
+  add_arrivals(material, light, delta);
 }
 
 void TileRenderer::add_arrivals(std::size_t material, std::size_t light, bool coherent) {
   if (arrivals_.empty()) return;
-  blocked_.resize(shadow_rays_.size());
-  context_.tracer.occluded(shadow_rays_, blocked_, coherent);
-  work_.shadow_rays += shadow_rays_.size();
+  arrives_not_.assign(arrivals_.size(), 0);
+  if (!shadow_rays_.empty()) {
+    blocked_.resize(shadow_rays_.size());
+    context_.tracer.occluded(shadow_rays_, blocked_, coherent);
+    for (std::size_t k = 0; k < blocked_.size(); ++k) arrives_not_[shadow_ray_of_[k]] = blocked_[k];
+    work_.shadow_rays += shadow_rays_.size();
+  }
   lap(&RenderWork::trace_s);
   resize(directions_, arrivals_.size());
   std::size_t kept = 0;
   for (std::size_t i = 0; i < arrivals_.size(); ++i) {
-    if (blocked_[i] != 0) continue;
+    if (arrives_not_[i] != 0) continue;
     set(directions_, kept, from_light_[i], to_eye_[arrivals_[i].path]);
     arrivals_[kept++] = arrivals_[i];
   }

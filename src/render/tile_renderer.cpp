@@ -27,11 +27,18 @@ double thread_seconds() {
 TileRenderer::TileRenderer(const RenderContext& context)
     : context_(context),
       channels_(context.channels()),
+      pixel_size_(2.0 * std::tan(0.5 * radians(context.scene.camera.fov_deg)) /
+                  static_cast<double>(context.scene.image.height)),
       of_material_(context.materials.size()),
       of_light_(context.lights.size()),
       sums_(channels_) {
   for (const LightSampler& light : context_.lights) sized_lights_ = sized_lights_ || !light.is_delta();
-  for (const Light& light : context_.scene.lights) mirrored_lights_ = mirrored_lights_ || mirror_shows(light);
+  for (std::size_t l = 0; l < context_.lights.size(); ++l) {
+    const bool shows = mirror_shows(context_.scene.lights[l]);
+    mirrored_lights_ = mirrored_lights_ || shows;
+    if (context_.lights[l].surrounds()) skies_.push_back(l);
+    if (shows && context_.lights[l].is_delta()) discs_.push_back(l);
+  }
 }
 
 void TileRenderer::lap(double RenderWork::*phase) {
@@ -45,12 +52,13 @@ void TileRenderer::render(const Tile& tile, std::span<double> radiance) {
   since_ = thread_seconds();
   const ImageSettings& image = context_.scene.image;
   const std::size_t pixels = (tile.right - tile.left) * (tile.bottom - tile.top);
+  find_discs(tile);
   const std::size_t at_once = std::max<std::size_t>(1, paths_at_once / pixels);
   for (std::size_t first = 0; first < image.samples; first += at_once) {
     start_paths(tile, first, std::min(at_once, image.samples - first));
     for (int bounce = 0; now_.size() > 0; ++bounce) {
       trace();
-      collect_emission();
+      collect_emission(bounce);
       next_.clear();
       if (bounce < image.max_bounces) {
         find_surfaces();
@@ -66,11 +74,16 @@ void TileRenderer::render(const Tile& tile, std::span<double> radiance) {
   lap(&RenderWork::other_s);
 }
 
+// Through a place of the image, in pixels from its upper left corner.
+Vec3 TileRenderer::camera_direction(double column, double row) const {
+  const ImageSettings& image = context_.scene.image;
+  const double x = (column - 0.5 * static_cast<double>(image.width)) * pixel_size_;
+  const double y = (0.5 * static_cast<double>(image.height) - row) * pixel_size_;
+  return normalised(context_.camera.to_world(x, y, -1.0));
+}
+
 void TileRenderer::start_paths(const Tile& tile, std::size_t first_sample, std::size_t samples) {
   const ImageSettings& image = context_.scene.image;
-  const Camera& camera = context_.scene.camera;
-  const double half_height = std::tan(0.5 * radians(camera.fov_deg));
-  const double pixel_size = 2.0 * half_height / static_cast<double>(image.height);
   now_.clear();
   for (std::size_t row = tile.top; row < tile.bottom; ++row) {
     for (std::size_t column = tile.left; column < tile.right; ++column) {
@@ -79,10 +92,8 @@ void TileRenderer::start_paths(const Tile& tile, std::size_t first_sample, std::
       for (std::size_t s = 0; s < samples; ++s) {
         const auto sample = static_cast<std::uint32_t>(first_sample + s);
         const auto within = image.samples == 1 ? std::array{0.5, 0.5} : random_pair(key, for_pixel, sample);
-        const double x =
-            (static_cast<double>(column) + within[0] - 0.5 * static_cast<double>(image.width)) * pixel_size;
-        const double y = (0.5 * static_cast<double>(image.height) - static_cast<double>(row) - within[1]) * pixel_size;
-        now_.rays.push_back({camera.position, normalised(context_.camera.to_world(x, y, -1.0))});
+        now_.rays.push_back({context_.scene.camera.position, camera_direction(static_cast<double>(column) + within[0],
+                                                                              static_cast<double>(row) + within[1])});
         now_.paths.push_back({.pixel = pixel, .key = key, .sample = sample, .normal = {}});
         if (context_.observer != nullptr) now_.paths.back().observed = context_.observer->begins(pixel);
         now_.throughput.insert(now_.throughput.end(), channels_, 1.0 / static_cast<double>(image.samples));
@@ -105,26 +116,23 @@ void TileRenderer::add_emission(std::size_t path, const LightSampler::Emission& 
   const double scale = emission.scale * weight;
   if (scale == 0.0) return;
   for (std::size_t c = 0; c < channels_; ++c) sums_[c] = throughput[c] * scale * emission.spectrum[c];
-  add(now_.paths[path], pixel);
-  if (context_.observer != nullptr) context_.observer->met_light(now_.paths[path].observed, sums_);
+  const double scale_left = add(now_.paths[path], pixel);
+  if (context_.observer == nullptr) return;
+  for (double& sum : sums_) sum *= scale_left;
+  context_.observer->met_light(now_.paths[path].observed, sums_);
 }
 
-double TileRenderer::add(const Path& path, double* pixel) {
-  double scale = 1.0;
-  if (path.drawn && context_.scene.image.path_limit) {
-    const double brightest = *std::max_element(sums_.begin(), sums_.end());
-    const double most = *context_.scene.image.path_limit / static_cast<double>(context_.scene.image.samples);
-    if (brightest > most) scale = most / brightest;
-  }
-  for (double& sum : sums_) sum *= scale;
-  for (std::size_t c = 0; c < channels_; ++c) pixel[c] += sums_[c];
-  return scale;
+double TileRenderer::part_within_limit() const {
+  const double brightest = *std::max_element(sums_.begin(), sums_.end());
+  const double most = *context_.scene.image.path_limit / static_cast<double>(context_.scene.image.samples);
+  return brightest > most ? most / brightest : 1.0;
 }
 
 // What the rays themselves run into. A ray that the model drew shares a light that has a size with the drawing of
 // lights.
-void TileRenderer::collect_emission() {
+void TileRenderer::collect_emission(int bounce) {
   const std::size_t objects = context_.scene.objects.size();
+  const std::vector<std::size_t>& discs = bounce == 0 ? discs_in_view_ : discs_;
   for (std::size_t i = 0; i < now_.size(); ++i) {
     const Hit& hit = hits_[i];
     const Path& path = now_.paths[i];
@@ -135,17 +143,41 @@ void TileRenderer::collect_emission() {
       if (context_.sampling == LightSampling::model) return 1.0;
       return path.pdf / (path.pdf + path.light_chance * light_pdf);
     };
-    for (std::size_t l = 0; l < context_.lights.size(); ++l) {
-      const LightSampler& light = context_.lights[l];
-      const bool met = light.surrounds() ? hit.surface == nothing : hit.surface == objects + l;
-      if (light.is_delta()) {
-        if (!specular) continue;
-        if (const auto disc = light.disc(now_.rays[i], hit.distance)) add_emission(i, *disc, 1.0);
-      } else if (met) {
-        const auto emission = light.emission(now_.rays[i], hit.distance, path.normal);
-        add_emission(i, emission, share(emission.pdf));
-      }
+    const auto add_met = [&](std::size_t l) {
+      const auto emission = context_.lights[l].emission(now_.rays[i], hit.distance, path.normal);
+      add_emission(i, emission, share(emission.pdf));
+    };
+    if (hit.surface == nothing) {
+      for (const std::size_t l : skies_) add_met(l);
+    } else if (hit.surface >= objects) {
+      add_met(hit.surface - objects);
     }
+    if (!specular) continue;
+    for (const std::size_t l : discs) {
+      if (const auto disc = context_.lights[l].disc(now_.rays[i], hit.distance)) add_emission(i, *disc, 1.0);
+    }
+  }
+}
+
+// Of the discs those that the tile's cone of directions touches.
+void TileRenderer::find_discs(const Tile& tile) {
+  const Vec3& eye = context_.scene.camera.position;
+  const auto corner = [&](std::size_t column, std::size_t row) {
+    return camera_direction(static_cast<double>(column), static_cast<double>(row));
+  };
+  const Vec3 axis = camera_direction(0.5 * static_cast<double>(tile.left + tile.right),
+                                     0.5 * static_cast<double>(tile.top + tile.bottom));
+  double least = 1.0;
+  for (const Vec3& c : {corner(tile.left, tile.top), corner(tile.right, tile.top), corner(tile.left, tile.bottom),
+                        corner(tile.right, tile.bottom)}) {
+    least = std::min(least, dot(axis, c));
+  }
+  constexpr double slack = 1e-6;
+  const double half_angle = std::acos(std::clamp(least, -1.0, 1.0)) + slack;
+  discs_in_view_.clear();
+  for (const std::size_t l : discs_) {
+    const auto [direction, radius] = context_.lights[l].disc_from(eye);
+    if (std::acos(std::clamp(dot(axis, direction), -1.0, 1.0)) <= half_angle + radius) discs_in_view_.push_back(l);
   }
 }
 

@@ -2,6 +2,7 @@
 // The paths of one tile, all of a bounce at a time: rays are traced together, hits grouped by material, and each
 // material evaluated for all its hits at once. Private to the renderer.
 
+#include "clear_views.h"
 #include "light_sampler.h"
 #include "material_shader.h"
 #include "renderer.h"
@@ -14,6 +15,7 @@ struct RenderContext {
   const Scene& scene;
   const Tracer& tracer;
   const std::vector<LightSampler>& lights;
+  const ClearViews& clear_views;
   const std::vector<MaterialShader>& materials;
   LightSampling sampling;
   PathObserver* observer;  ///< null: nobody listens
@@ -64,11 +66,19 @@ class TileRenderer {
     const double* spectrum;
   };
 
+  void find_discs(const Tile& tile);
   void start_paths(const Tile& tile, std::size_t first_sample, std::size_t samples);
   void trace();
-  void collect_emission();
+  void collect_emission(int bounce);
+  [[nodiscard]] Vec3 camera_direction(double column, double row) const;
   void add_emission(std::size_t path, const LightSampler::Emission& emission, double weight);
-  double add(const Path& path, double* pixel);  // sums_; what of them the limit of a path leaves
+  // sums_; returns what part of them the limit of a path leaves.
+  double add(const Path& path, double* pixel) {
+    const double scale = path.drawn && context_.scene.image.path_limit ? part_within_limit() : 1.0;
+    for (std::size_t c = 0; c < channels_; ++c) pixel[c] += scale * sums_[c];
+    return scale;
+  }
+  [[nodiscard]] double part_within_limit() const;
   void find_surfaces();
   void light_directly(std::size_t material, int bounce);
   void draw_light(std::size_t material, std::size_t light, double chance, const std::vector<std::uint32_t>& hits);
@@ -83,17 +93,21 @@ class TileRenderer {
 
   const RenderContext& context_;
   std::size_t channels_;
+  double pixel_size_;  // at a distance of 1
   bool sized_lights_ = false, mirrored_lights_ = false;
   Paths now_, next_;
+  std::vector<std::size_t> skies_, discs_,
+      discs_in_view_;  // lights all around, lights that show as discs, those that the tile may see
   std::vector<Hit> hits_;
   std::vector<SurfacePoint> surfaces_;                   // by path
   std::vector<Direction> to_eye_;                        // by path, in the surface's frame
   std::vector<std::vector<std::uint32_t>> of_material_;  // paths that hit it
   std::vector<std::vector<std::uint32_t>> of_light_;     // of these, those that ask each light
   std::vector<Ray> shadow_rays_;
+  std::vector<std::uint32_t> shadow_ray_of_;  // of which arrival each is
   std::vector<Arrival> arrivals_;
   std::vector<Direction> from_light_;
-  std::vector<std::uint8_t> blocked_;
+  std::vector<std::uint8_t> blocked_, arrives_not_;  // by shadow ray, by arrival
   DirectionBatch directions_;
   std::vector<double> values_;
   MaterialShader::Scratch scratch_;

@@ -2,7 +2,7 @@
 # Makes the pictures of the gallery in fits/gallery/ from the program's own output: the figures of Li & Torrance 2005, Oren
 # & Nayar 1994 and Schlick 1994 that need no photograph. Takes a minute or two.
 #   scripts/gallery.sh                  all of them
-#   scripts/gallery.sh plots spheres    only those parts: plots, spheres, scenes
+#   scripts/gallery.sh plots spheres    only those parts, of plots, spheres, scenes and page
 source "$(dirname "$0")/lib.sh"
 
 out=fits/gallery
@@ -278,17 +278,26 @@ spheres() {
   spheres_of oren_nayar_14_spheres 10 "${rough[@]}"
 }
 
+# The first screen of a report, as a browser shows it.
+page() {
+  ensure_packages chromium
+  "$goniofit" fit data/garnet_red_paint_13.csv --n 1.7 --report "$work/report.html" --quiet >"$work/report.txt"
+  quietly chromium --headless --no-sandbox --disable-gpu --no-first-run --disable-background-networking \
+    --user-data-dir="$work/browser" --window-size=1280,900 --virtual-time-budget=4000 \
+    --screenshot="$PWD/$out/report.png" "file://$work/report.html"
+}
+
 # The scenes that ship, planned.
 scenes() {
   local scene
-  for scene in five_materials mirror; do
-    "$goniofit" render "data/scenes/$scene.toml" --quiet -o "$out/$scene.png"
+  for scene in five_materials five_spheres mirror; do
+    "$goniofit" render "data/scenes/$scene.toml" --samples 128 --quiet -o "$out/$scene.png" >"$work/$scene.txt"
   done
 }
 
 build_program
 mkdir -p "$out"
-(($#)) || set -- plots spheres scenes
+(($#)) || set -- plots spheres scenes page
 for part in "$@"; do
   say "gallery: $part"
   "$part"

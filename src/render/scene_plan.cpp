@@ -155,7 +155,7 @@ class Planner {
       add_times(result_.exact[m].material, p);
     }
     p.indirect = indirect_part(survey_, s, scene_.channels.size());
-    p.follows = p.indirect > 0.5 * aim;
+    p.follows = p.indirect > 0.5 * aim || p.indirect == 0.0;  // nothing to leave out
     result_.planned[m].follows = p.follows;
     result_.materials[m] = std::move(p);
   }

@@ -40,22 +40,26 @@ std::string simpler_terms_text(const Plan& p) {
   return text;
 }
 
+// Empty where no other surface sends light to it.
 std::string interreflection_text(const MaterialPlan& m) {
-  if (m.follows) return "light from other surfaces kept: leaving it out would change " + percent_text(m.indirect);
-  return "light from other surfaces left out: changes " + (m.indirect > 0.0 ? percent_text(m.indirect) : "0 %");
+  if (!(m.indirect > 0.0)) return {};
+  if (m.follows) {
+    return "  light from other surfaces kept: leaving it out would change " + percent_text(m.indirect) + "\n";
+  }
+  return "  light from other surfaces left out: changes " + percent_text(m.indirect) + "\n";
 }
 
 std::string details_of(const MaterialPlan& m, const ReportStyle& style) {
   std::string text = tinted(printable(m.name), Tint::bold, style.color);
   if (!m.plan) {
     text += ": as it is, since " + m.why_not + "\n";
-    return text + (m.survey.seen ? "  " + interreflection_text(m) + "\n\n" : "\n");
+    return text + interreflection_text(m) + "\n";
   }
   text += fmt::format(": {}; {}\n", effects_text(m.plan->material.components), angles_text(m.plan->domain));
   for (const PlanLine& line : m.plan->lines) {
     text += "  " + tinted(line.text(), line.simplified ? Tint::good : Tint::none, style.color) + "\n";
   }
-  return text + "  " + interreflection_text(m) + "\n\n";
+  return text + interreflection_text(m) + "\n";
 }
 
 }  // namespace
@@ -68,7 +72,7 @@ std::string left_out_text(const MaterialPlan& plan) {
       if (line.simplified && (line.choice == "left out" || line.choice == "none")) add(line.subject);
     }
   }
-  if (plan.survey.seen && !plan.follows) add("interreflection");
+  if (!plan.follows) add("interreflection");
   return text.empty() ? "nothing" : text;
 }
 

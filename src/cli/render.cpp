@@ -140,6 +140,9 @@ Result render_scene(const Options& options) {
 }
 
 Result render_spheres(const Options& options) {
+  if (options.compare || options.tolerance || options.effects) {
+    throw usage_error("--tolerance, --effects and --compare are of scenes, expected one .toml");
+  }
   const std::vector<std::string> models =
       options.models ? parse_words(*options.models, "--models") : std::vector<std::string>{"given"};
   const std::vector<double> angles = parse_numbers(options.light_angles, "--light-angle");

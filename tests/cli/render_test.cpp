@@ -118,6 +118,53 @@ TEST_F(Render, BadScenesAreRefusedInOneLine) {
   }
 }
 
+TEST_F(Render, AToleranceMakesAPlanThatThePictureCarries) {
+  add("s.toml", scene_head + floor_object + ball + lamp);
+  const Outcome planned = run_here({"render", "s.toml", "--tolerance", "0.02", "-o", "planned.exr"});
+  ASSERT_EQ(planned.status, 0) << planned.err;
+  EXPECT_NE(planned.out.find("predicted error of the image"), std::string::npos) << planned.out;
+  EXPECT_NE(planned.out.find("dd kept: leaving it out would change"), std::string::npos) << planned.out;
+  EXPECT_NE(content("planned.exr").find("goniofit.plan"), std::string::npos);
+  EXPECT_NE(content("planned.exr").find("dd kept"), std::string::npos);
+  add("t.toml", scene_head + "[plan]\ntolerance = 0.02\n" + floor_object + ball + lamp);
+  EXPECT_NE(run_here({"render", "t.toml", "-o", "t.png"}).out.find("predicted error"), std::string::npos);
+  const Outcome given = run_here({"render", "t.toml", "--effects", "given", "-o", "given.png"});
+  EXPECT_EQ(given.out.find("predicted error"), std::string::npos);
+}
+
+TEST_F(Render, ComparesThePlanWithAllEffectsAndWithThePublishedTerms) {
+  add("s.toml", scene_head + floor_object + ball + lamp);
+  const Outcome outcome = run_here({"render", "s.toml", "--tolerance", "0.02", "--compare", "--json", "-o", "p.exr"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const auto json = nlohmann::json::parse(outcome.out);
+  const auto& comparison = json.at("comparison");
+  EXPECT_LE(comparison.at("difference").at("rms_relative"), 0.02);
+  EXPECT_GT(comparison.at("published_difference").at("rms_relative"), comparison.at("difference").at("rms_relative"));
+  EXPECT_GT(comparison.at("all_effects_ratio").at("median"), 0.3);
+  EXPECT_LE(comparison.at("seconds").at("min"), comparison.at("seconds").at("median"));
+  EXPECT_EQ(json.at("plan").at("tolerance"), 0.02);
+  EXPECT_NE(content("p.exr").find("goniofit.comparison"), std::string::npos);
+}
+
+TEST_F(Render, PlanTakesAScene) {
+  add("s.toml", scene_head + floor_object + ball + lamp);
+  const Outcome outcome = run_here({"plan", "s.toml", "--tolerance", "0.02", "--json", "-o", "planned.json"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const auto json = nlohmann::json::parse(outcome.out);
+  EXPECT_EQ(nlohmann::json::parse(content("planned.json")), json);
+  ASSERT_EQ(json.at("materials").size(), 2U);
+  for (const auto& material : json.at("materials")) {
+    if (material.at("name") != "paint") continue;
+    EXPECT_LE(material.at("planned").at("worst_l1_error"), 0.02);
+    add("one.json", material.at("material").dump());
+    EXPECT_EQ(run_here({"export", "one.json", "--format", "json", "-o", "two.json"}).status, 0)
+        << "a material that every other command takes";
+  }
+  EXPECT_NE(
+      run_here({"plan", "s.toml", "--tolerance", "0.02", "--max-theta", "70"}).err.find("--max-theta: a scene says"),
+      std::string::npos);
+}
+
 TEST_F(Render, BadUsage) {
   add("s.toml", scene_head + ball + lamp);
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases{
@@ -132,6 +179,10 @@ TEST_F(Render, BadUsage) {
       {{"m.json", "-o", "p.png", "--models", "coh"}, "\"coh\" is no model and names no effects"},
       {{"m.json", "-o", "p.png", "--light-angle", "181"}, "--light-angle: 181"},
       {{"m.json", "-o", "p.png", "--sky", "-1"}, "--sky: -1"},
+      {{"m.json", "-o", "p.png", "--compare"}, "--compare are of scenes"},
+      {{"s.toml", "-o", "p.png", "--effects", "some"}, "--effects: \"some\""},
+      {{"s.toml", "-o", "p.png", "--effects", "all", "--compare"}, "--compare compares a plan"},
+      {{"s.toml", "-o", "p.png", "--tolerance", "2"}, "tolerance 2: expected a number between 0 and 1"},
       {{"none.toml", "-o", "p.png"}, "none.toml"},
       {{"none.json", "-o", "p.png"}, "none.json"},
   };

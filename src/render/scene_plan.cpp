@@ -150,9 +150,14 @@ class Planner {
       p.why_not = "it reflects nothing";
     } else {
       tell("the plan of " + given.name);
-      p.plan = planned(given.material, result_.exact[m].material, s, aim);
-      result_.planned[m] = {p.plan->material, compile_settings(), true};
-      add_times(result_.exact[m].material, p);
+      try {
+        p.plan = planned(given.material, result_.exact[m].material, s, aim);
+        result_.planned[m] = {p.plan->material, compile_settings(aim), true};
+        add_times(result_.exact[m].material, result_.planned[m], p);
+      } catch (const Error& e) {
+        if (e.kind() != ErrorKind::failed_result) throw;
+        p.why_not = "nothing simpler stays within the tolerance";
+      }
     }
     p.indirect = indirect_part(survey_, s, scene_.channels.size());
     p.follows = p.indirect > 0.5 * aim || p.indirect == 0.0;  // nothing to leave out
@@ -174,7 +179,7 @@ class Planner {
           brightest->light, brightest->contrast);
     }
     PlanSettings plan_settings = settings_.plan;
-    plan_settings.compile = compile_settings();
+    plan_settings.compile = compile_settings(aim);
     plan_settings.arithmetic = Arithmetic::batch_float;
     plan_settings.by_the_clock = false;
     plan_settings.seed = plan_settings.timing.seed = settings_.seed;
@@ -184,11 +189,11 @@ class Planner {
     return p;
   }
 
-  void add_times(const Material& exact, MaterialPlan& p) const {
+  void add_times(const Material& exact, const RenderMaterial& planned, MaterialPlan& p) const {
     const DirectionBatch pairs = random_pairs(settings_.plan.pairs, settings_.seed);
     const std::array tasks{evaluation_task({.name = {},
-                                            .material = p.plan->material,
-                                            .compile = compile_settings(),
+                                            .material = planned.material,
+                                            .compile = planned.compile,
                                             .arithmetic = Arithmetic::batch_float},
                                            pairs),
                            evaluation_task({.name = {}, .material = exact}, pairs)};
@@ -197,9 +202,9 @@ class Planner {
     p.ns_exact = times[1].median_ns;
   }
 
-  // Terms that are a tenth as exact as the picture cost less and are not seen.
-  [[nodiscard]] CompileSettings compile_settings() const {
-    return {.tolerance = std::clamp(0.1 * tolerance_, 1e-9, 1e-3)};
+  // Terms with a tenth of the error that is allowed cost less, and are not seen.
+  [[nodiscard]] static CompileSettings compile_settings(double aim) {
+    return {.tolerance = std::clamp(0.1 * aim, 1e-9, 1e-3)};
   }
 
   const Scene& scene_;

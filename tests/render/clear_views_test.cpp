@@ -69,7 +69,7 @@ TEST(ClearViews, NoRayOfAClearViewIsBlocked) {
       const Sphere& ball = std::get<Sphere>(scene.objects[o].shape);
       for (int k = 0; k < 50; ++k) {
         const Vec3 n = normalised(Vec3{normal(random), normal(random), normal(random)});
-        const Vec3 point = ball.center + (1.0 + 1e-6) * ball.radius * n;
+        const Vec3 point = ball.center + 1.001 * ball.radius * n;  // clear of single precision
         if (!(dot(at - point, n) > 0.0)) continue;
         const Ray ray{point, normalised(at - point), length(at - point) * (1.0 - 1e-9)};
         std::uint8_t blocked = 0;

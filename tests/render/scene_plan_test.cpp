@@ -148,6 +148,17 @@ TEST(ScenePlan, OnlyAsManyReflectionsAsThePictureNeeds) {
   EXPECT_EQ(plan_scene(walls, 0.01, quick()).bounces.planned, 2);
 }
 
+// A tolerance that single precision cannot keep leaves the exact terms in double precision.
+TEST(ScenePlan, AToleranceBeyondSinglePrecisionLeavesAllAsItIs) {
+  Scene scene = plate(dull_mirror());
+  scene.lights.push_back(PointLight{.position = {0.1, 0.0, 5.0}, .intensity = flat(scene, 10.0), .radius = 0.0});
+  const ScenePlan p = plan_scene(scene, 1e-9, quick());
+  EXPECT_FALSE(p.materials[0].plan.has_value());
+  EXPECT_EQ(p.materials[0].why_not, "nothing simpler stays within the tolerance");
+  EXPECT_FALSE(p.planned[0].single_precision);
+  EXPECT_EQ(p.predicted_error, 0.0);
+}
+
 TEST(ScenePlan, WhatIsNotSeenOrHasNoTermsStaysAsItIs) {
   Scene scene = scene_of(lambertian(0.5));
   Material peer;

@@ -12,8 +12,7 @@ export DEBIAN_FRONTEND=noninteractive
 
 build_packages=(g++ cmake ninja-build ccache libceres-dev libeigen3-dev libopenexr-dev libpng-dev libembree-dev libcli11-dev nlohmann-json3-dev
   libtomlplusplus-dev libyaml-cpp-dev libfmt-dev libfast-float-dev libboost-dev
-  libpng-dev nettle-dev
-  gnuplot-nox)
+  nettle-dev gnuplot-nox)
 test_packages=(libgtest-dev librapidcheck-dev libmpfr-dev python3-lmfit chromium)
 # Where they came from elsewhere, Debian's packages of the same names would be in the way.
 command -v node >/dev/null || build_packages+=(nodejs)

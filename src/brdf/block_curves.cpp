@@ -39,6 +39,8 @@ struct Curves {
     const Real tenth = Real(-0.2) * a.inverse_slope;
     const Real two_log_slope = 2 * a.log_slope;
     const std::size_t n = a.n;
+    // Loops of their own for each step: in one body, a processor waits for the end of a long chain before it has room
+    // for the next.
 #pragma GCC ivdep
     for (std::size_t k = 0; k < n; ++k) {
       const Real c_i = cos_i[k];
@@ -49,20 +51,25 @@ struct Curves {
         const Real r = lane::at_most(lit_reach, c_r);
         shadow[k] = (i * lit(i)) * (r * lit(r)) * over_cosines;
       }
-      if constexpr (roughness != EffectiveRoughnessTier::none) {
-        const Real i = lane::at_most(seen_reach, c_i);
-        const Real r = lane::at_most(seen_reach, c_r);
-        Real up = 0;
-        if constexpr (roughness == EffectiveRoughnessTier::li_torrance) {
-          up = tenth * log(T((i * seen(i)) * (r * seen(r)))).v;
-        } else {
-          const Real depth = (seen(i) * c_r + seen(r) * c_i) * over_cosines;
-          constexpr Real scale = Real(std::numbers::e / (8.0 * std::numbers::pi));
-          up = by_depth(log1p(T(scale * depth * depth)).v);
-        }
-        growth[k] = up;
-        inverse[k] = exp(T(up - two_log_slope)).v;
+      if constexpr (roughness == EffectiveRoughnessTier::he) inverse[k] = over_cosines;
+    }
+    if constexpr (roughness == EffectiveRoughnessTier::none) return;
+#pragma GCC ivdep
+    for (std::size_t k = 0; k < n; ++k) {
+      const Real i = lane::at_most(seen_reach, cos_i[k]);
+      const Real r = lane::at_most(seen_reach, cos_r[k]);
+      growth[k] = roughness == EffectiveRoughnessTier::he ? (seen(i) * cos_r[k] + seen(r) * cos_i[k]) * inverse[k]
+                                                          : (i * seen(i)) * (r * seen(r));
+    }
+#pragma GCC ivdep
+    for (std::size_t k = 0; k < n; ++k) {
+      if constexpr (roughness == EffectiveRoughnessTier::he) {
+        constexpr Real scale = Real(std::numbers::e / (8.0 * std::numbers::pi));
+        growth[k] = by_depth(log1p(T(scale * growth[k] * growth[k])).v);
+      } else {
+        growth[k] = tenth * log(T(growth[k])).v;
       }
+      inverse[k] = exp(T(growth[k] - two_log_slope)).v;
     }
   }
 };

@@ -128,13 +128,21 @@ struct Zenith {
       tan2_b[k] = static_cast<Real>(h2 * over_z2);
       rest_i[k] = static_cast<Real>(i);
       rest_r[k] = static_cast<Real>(r);
-      if constexpr (logarithms) {
-        const Real of_i = lane::log(static_cast<Real>(i), static_cast<Real>(-d.l_z));
-        const Real of_r = lane::log(static_cast<Real>(r), static_cast<Real>(-d.v_z));
-        constexpr In least = static_cast<In>(std::numeric_limits<Real>::min());
-        log_i[k] = i >= least ? of_i : Real(log_of_zero);
-        log_r[k] = r >= least ? of_r : Real(log_of_zero);
-      }
+    }
+    // Loops of their own: in one body, a processor waits for the end of a long chain before it has room for the next.
+    if constexpr (logarithms) {
+      logarithm(rest_i, cos_i, log_i, n);
+      logarithm(rest_r, cos_r, log_r, n);
+    }
+  }
+
+ private:
+  [[gnu::always_inline]] static void logarithm(const Real* rest, const Real* cos, Real* log, std::size_t n) {
+    constexpr Real least = std::numeric_limits<Real>::min();
+#pragma GCC ivdep
+    for (std::size_t k = 0; k < n; ++k) {
+      const Real of_rest = lane::log(rest[k], -cos[k]);
+      log[k] = rest[k] >= least ? of_rest : Real(log_of_zero);
     }
   }
 };

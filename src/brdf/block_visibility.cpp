@@ -61,20 +61,25 @@ struct Visibility {
       } else if constexpr (shadowed) {
         shadow[k] = Real(1) / (cos_i[k] * cos_r[k]);
       }
-      if constexpr (roughness == EffectiveRoughnessTier::none) continue;
-      T up = 0.0;
       if constexpr (published_roughness) {
-        up = published_growth(q, i, r);
-      } else {
-        BasicPair<T> p{};
-        p.cos_i = cos_i[k];
-        p.cos_r = cos_r[k];
-        p.one_minus_cos_i = rest_i[k];
-        p.one_minus_cos_r = rest_r[k];
-        up = -2.0 * log_effective_roughness_he(slope, slope, p, negligible_depth<Real>);
+        growth[k] = (i.seen * r.seen).v;
+        inverse[k] = hidden_of_both(i, r).v;
+      } else if constexpr (roughness == EffectiveRoughnessTier::he) {
+        growth[k] = (he_hidden_depth(slope, T(cos_i[k]), sine(T(cos_i[k]), T(rest_i[k]))) +
+                     he_hidden_depth(slope, T(cos_r[k]), sine(T(cos_r[k]), T(rest_r[k]))))
+                        .v;
       }
-      growth[k] = up.v;
-      inverse[k] = exp(up - two_log_slope).v;
+    }
+    if constexpr (roughness == EffectiveRoughnessTier::none) return;
+      // A loop of its own: in one body, a processor waits for the end of a long chain before it has room for the next.
+#pragma GCC ivdep
+    for (std::size_t k = 0; k < n; ++k) {
+      if constexpr (published_roughness) {
+        growth[k] = published_growth(q, T(growth[k]), T(inverse[k])).v;
+      } else {
+        growth[k] = (-2.0 * log_effective_roughness_he(T(growth[k]), negligible_depth<Real>)).v;
+      }
+      inverse[k] = exp(T(growth[k]) - two_log_slope).v;
     }
   }
 };

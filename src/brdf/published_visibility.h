@@ -29,11 +29,20 @@ template <class T>
   return {both + rise * w4, both * (1.0 + w4), w4 * w4};
 }
 
-/// -2 ln(sigma_e/sigma) of two directions.
+/// 1 - i.seen r.seen without a difference of near equals.
+template <class T>
+[[gnu::always_inline]] inline T hidden_of_both(const Published<T>& i, const Published<T>& r) {
+  return i.hidden + r.hidden * (1.0 - i.hidden);
+}
+
+/// -2 ln(sigma_e/sigma) of two directions, by the product of what is seen and its distance from 1.
+template <class T>
+[[gnu::always_inline]] inline T published_growth(T inverse_slope, T seen, T hidden) {
+  return -0.2 * inverse_slope * T(lane::log(seen.v, -hidden.v));
+}
 template <class T>
 [[gnu::always_inline]] inline T published_growth(T inverse_slope, const Published<T>& i, const Published<T>& r) {
-  const T rest = i.hidden + r.hidden * (1.0 - i.hidden);
-  return -0.2 * inverse_slope * T(lane::log((i.seen * r.seen).v, -rest.v));
+  return published_growth(inverse_slope, i.seen * r.seen, hidden_of_both(i, r));
 }
 
 }  // namespace goniofit::block

@@ -30,13 +30,18 @@ template <class T, class G>
 /// Squared, that is w e^w = K²/(8π) with w = (z0/sigma)²: no iteration to converge but Lambert's W0. An anisotropic
 /// surface has a slope for either direction. sigma_e/sigma is right to 1 eps, its logarithm to 1e-13, from the normal
 /// to cosines of 1e-300. Where the hidden depth is below `least`, the first term of its series is taken.
+template <class T>
+[[nodiscard]] [[gnu::always_inline]] inline T log_effective_roughness_he(const T& hidden, double least) {
+  using namespace math;
+  return -0.5 * log1p(lambert_w0_of_square(T(hidden / sqrt(8.0 * pi_of<T>())), least));
+}
+
 template <class T, class G>
 [[nodiscard]] [[gnu::always_inline]] inline T log_effective_roughness_he(const T& slope_i, const T& slope_r,
                                                                          const BasicPair<G>& p, double least = 1e-145) {
-  using namespace math;
   const T hidden = he_hidden_depth(slope_i, p.cos_i, sine(p.cos_i, p.one_minus_cos_i)) +
                    he_hidden_depth(slope_r, p.cos_r, sine(p.cos_r, p.one_minus_cos_r));
-  return -0.5 * log1p(lambert_w0_of_square(T(hidden / sqrt(8.0 * pi_of<T>())), least));
+  return log_effective_roughness_he(hidden, least);
 }
 
 template <class T, class G>

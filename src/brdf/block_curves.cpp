@@ -39,38 +39,48 @@ struct Curves {
     const Real tenth = Real(-0.2) * a.inverse_slope;
     const Real two_log_slope = 2 * a.log_slope;
     const std::size_t n = a.n;
-    // Loops of their own for each step: in one body, a processor waits for the end of a long chain before it has room
+    // Each curve in a loop of its own: in one body, a processor waits for the end of a long chain before it has room
     // for the next.
+    if constexpr (shadowed) {
 #pragma GCC ivdep
-    for (std::size_t k = 0; k < n; ++k) {
-      const Real c_i = cos_i[k];
-      const Real c_r = cos_r[k];
-      const Real over_cosines = Real(1) / (c_i * c_r);
-      if constexpr (shadowed) {
-        const Real i = lane::at_most(lit_reach, c_i);
-        const Real r = lane::at_most(lit_reach, c_r);
-        shadow[k] = (i * lit(i)) * (r * lit(r)) * over_cosines;
+      for (std::size_t k = 0; k < n; ++k) {
+        const Real i = lane::at_most(lit_reach, cos_i[k]);
+        shadow[k] = i * lit(i);
       }
-      if constexpr (roughness == EffectiveRoughnessTier::he) inverse[k] = over_cosines;
+#pragma GCC ivdep
+      for (std::size_t k = 0; k < n; ++k) {
+        const Real r = lane::at_most(lit_reach, cos_r[k]);
+        shadow[k] = shadow[k] * (r * lit(r)) / (cos_i[k] * cos_r[k]);
+      }
     }
     if constexpr (roughness == EffectiveRoughnessTier::none) return;
+      // What is seen of both, or hidden of either.
 #pragma GCC ivdep
     for (std::size_t k = 0; k < n; ++k) {
       const Real i = lane::at_most(seen_reach, cos_i[k]);
+      growth[k] = roughness == EffectiveRoughnessTier::he ? seen(i) * cos_r[k] : i * seen(i);
+    }
+#pragma GCC ivdep
+    for (std::size_t k = 0; k < n; ++k) {
       const Real r = lane::at_most(seen_reach, cos_r[k]);
-      growth[k] = roughness == EffectiveRoughnessTier::he ? (seen(i) * cos_r[k] + seen(r) * cos_i[k]) * inverse[k]
-                                                          : (i * seen(i)) * (r * seen(r));
+      growth[k] = roughness == EffectiveRoughnessTier::he ? (growth[k] + seen(r) * cos_i[k]) / (cos_i[k] * cos_r[k])
+                                                          : growth[k] * (r * seen(r));
     }
 #pragma GCC ivdep
     for (std::size_t k = 0; k < n; ++k) {
       if constexpr (roughness == EffectiveRoughnessTier::he) {
         constexpr Real scale = Real(std::numbers::e / (8.0 * std::numbers::pi));
-        growth[k] = by_depth(log1p(T(scale * growth[k] * growth[k])).v);
+        growth[k] = log1p(T(scale * growth[k] * growth[k])).v;
       } else {
         growth[k] = tenth * log(T(growth[k])).v;
       }
-      inverse[k] = exp(T(growth[k] - two_log_slope)).v;
     }
+    if constexpr (roughness == EffectiveRoughnessTier::he) {
+#pragma GCC ivdep
+      for (std::size_t k = 0; k < n; ++k) growth[k] = by_depth(growth[k]);
+    }
+#pragma GCC ivdep
+    for (std::size_t k = 0; k < n; ++k) inverse[k] = exp(T(growth[k] - two_log_slope)).v;
   }
 };
 

@@ -39,18 +39,26 @@ struct Visibility {
     const T two_log_slope = 2 * a.log_slope;
     const T unit_from = a.unit_shadowing_from;
     const std::size_t n = a.n;
+    // Steps in loops of their own: in one body, a processor waits for the end of a long chain before it has room for
+    // the next.
+    if constexpr (published_shadowing || published_roughness) {
+#pragma GCC ivdep
+      for (std::size_t k = 0; k < n; ++k) {
+        const Published<T> i = published(q, T(log_i[k]));
+        if constexpr (published_shadowing) shadow[k] = stepped(i.lit, T(cos_i[k]), unit_from).v;
+        if constexpr (published_roughness) {
+          growth[k] = i.seen.v;
+          inverse[k] = i.hidden.v;
+        }
+      }
+    }
 #pragma GCC ivdep
     for (std::size_t k = 0; k < n; ++k) {
-      Published<T> i{};
       Published<T> r{};
-      if constexpr (published_shadowing || published_roughness) {
-        i = published(q, T(log_i[k]));
-        r = published(q, T(log_r[k]));
-      }
+      if constexpr (published_shadowing || published_roughness) r = published(q, T(log_r[k]));
       if constexpr (published_shadowing) {
-        shadow[k] = (stepped(i.lit, T(cos_i[k]), unit_from) * stepped(r.lit, T(cos_r[k]), unit_from) /
-                     (T(cos_i[k]) * T(cos_r[k])))
-                        .v;
+        const T both = T(shadow[k]) * stepped(r.lit, T(cos_r[k]), unit_from);
+        shadow[k] = (both / (T(cos_i[k]) * T(cos_r[k]))).v;
       } else if constexpr (shadowed && shadowing == ShadowingTier::smith) {
         shadow[k] = (shadowing_smith_over_cosine(slope, T(cos_i[k]), sine(T(cos_i[k]), T(rest_i[k]))) *
                      shadowing_smith_over_cosine(slope, T(cos_r[k]), sine(T(cos_r[k]), T(rest_r[k]))))
@@ -62,6 +70,7 @@ struct Visibility {
         shadow[k] = Real(1) / (cos_i[k] * cos_r[k]);
       }
       if constexpr (published_roughness) {
+        const Published<T> i{{}, growth[k], inverse[k]};
         growth[k] = (i.seen * r.seen).v;
         inverse[k] = hidden_of_both(i, r).v;
       } else if constexpr (roughness == EffectiveRoughnessTier::he) {
@@ -71,7 +80,6 @@ struct Visibility {
       }
     }
     if constexpr (roughness == EffectiveRoughnessTier::none) return;
-      // A loop of its own: in one body, a processor waits for the end of a long chain before it has room for the next.
 #pragma GCC ivdep
     for (std::size_t k = 0; k < n; ++k) {
       if constexpr (published_roughness) {
@@ -79,8 +87,9 @@ struct Visibility {
       } else {
         growth[k] = (-2.0 * log_effective_roughness_he(T(growth[k]), negligible_depth<Real>)).v;
       }
-      inverse[k] = exp(T(growth[k]) - two_log_slope).v;
     }
+#pragma GCC ivdep
+    for (std::size_t k = 0; k < n; ++k) inverse[k] = exp(T(growth[k]) - two_log_slope).v;
   }
 };
 

@@ -56,12 +56,20 @@ struct VisibilityRates {
         shadow_rate[k] = 0.0;
       }
       if constexpr (!grows) continue;
-      const T up = published_growth(q, i, r);
       const T falls = depth_i * i.hidden * r.seen + depth_r * r.hidden * i.seen;
-      growth[k] = up.v;
-      growth_rate[k] = (1.6 * q * falls / (i.seen * r.seen) - up).v;
-      inverse[k] = exp(up - two_log_slope).v;
+      growth[k] = (i.seen * r.seen).v;
+      growth_rate[k] = (1.6 * q * falls / (i.seen * r.seen)).v;
+      inverse[k] = hidden_of_both(i, r).v;
     }
+    if constexpr (!grows) return;
+      // Loops of their own, as in the loop of the values.
+#pragma GCC ivdep
+    for (std::size_t k = 0; k < n; ++k) {
+      growth[k] = published_growth(q, T(growth[k]), T(inverse[k])).v;
+      growth_rate[k] -= growth[k];
+    }
+#pragma GCC ivdep
+    for (std::size_t k = 0; k < n; ++k) inverse[k] = exp(T(growth[k]) - two_log_slope).v;
   }
 };
 

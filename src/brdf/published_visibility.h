@@ -40,9 +40,5 @@ template <class T>
 [[gnu::always_inline]] inline T published_growth(T inverse_slope, T seen, T hidden) {
   return -0.2 * inverse_slope * T(lane::log(seen.v, -hidden.v));
 }
-template <class T>
-[[gnu::always_inline]] inline T published_growth(T inverse_slope, const Published<T>& i, const Published<T>& r) {
-  return published_growth(inverse_slope, i.seen * r.seen, hidden_of_both(i, r));
-}
 
 }  // namespace goniofit::block

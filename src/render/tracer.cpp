@@ -59,7 +59,7 @@ Tracer& Tracer::operator=(Tracer&&) noexcept = default;
 
 void Tracer::intersect(std::span<const Ray> rays, std::span<Hit> hits, bool coherent) const {
   RTCIntersectContext context = context_for(coherent);
-  RTCRayHit16 packed;
+  RTCRayHit16 packed{};  // lanes that no ray fills shall hold numbers all the same
   alignas(64) int valid[packet];
   for (std::size_t first = 0; first < rays.size(); first += packet) {
     const std::size_t count = std::min(packet, rays.size() - first);
@@ -86,7 +86,7 @@ void Tracer::intersect(std::span<const Ray> rays, std::span<Hit> hits, bool cohe
 
 void Tracer::occluded(std::span<const Ray> rays, std::span<std::uint8_t> blocked, bool coherent) const {
   RTCIntersectContext context = context_for(coherent);
-  RTCRay16 packed;
+  RTCRay16 packed{};
   alignas(64) int valid[packet];
   for (std::size_t first = 0; first < rays.size(); first += packet) {
     const std::size_t count = std::min(packet, rays.size() - first);

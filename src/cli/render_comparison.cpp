@@ -58,7 +58,7 @@ RenderComparison compare_renders(const Scene& scene, const ScenePlan& plan, std:
     for (Way& way : ways) {
       tell(fmt::format("round {} of {}: {}", round + 1, rounds, way.name));
       way.last = render(way.scene, way.materials, {.threads = threads});
-      way.seconds.push_back(way.last.seconds);
+      way.seconds.push_back(way.last.preparation_s + way.last.seconds);
     }
   }
   auto& [planned, exact, published] = ways;

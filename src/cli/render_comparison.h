@@ -15,12 +15,12 @@ struct Spread {
 };
 
 struct RenderComparison {
-  PictureDifference difference;  ///< of the plan against all effects with exact terms
-  PictureDifference published;   ///< of Li & Torrance's terms against the same
-  Spread seconds, exact_seconds, published_seconds;
-  Spread exact_ratio, published_ratio;  ///< of their times over the plan's, round by round
-  Picture picture;                      ///< by the plan
-  RenderWork work;                      ///< likewise, of one round
+  PictureDifference difference;                      ///< of the plan against all effects with exact terms
+  PictureDifference published;                       ///< of Li & Torrance's terms against the same
+  Spread seconds, exact_seconds, published_seconds;  ///< materials compiled and samplers measured included
+  Spread exact_ratio, published_ratio;               ///< of their times over the plan's, round by round
+  Picture picture;                                   ///< by the plan
+  RenderWork work;                                   ///< likewise, of one round
 };
 
 /// Renders the scene in turn by each, in three rounds.

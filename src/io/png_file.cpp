@@ -3,6 +3,7 @@
 #include <png.h>
 
 #include <algorithm>
+#include <cmath>
 #include <csetjmp>
 #include <string_view>
 
@@ -80,6 +81,12 @@ bool write_all(png_structp png, png_infop info, const RgbPicture& picture, const
 }
 
 }  // namespace
+
+std::uint8_t srgb_byte(double linear) noexcept {
+  const double c = std::clamp(linear, 0.0, 1.0);
+  const double encoded = c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1.0 / 2.4) - 0.055;
+  return static_cast<std::uint8_t>(std::lround(255.0 * encoded));
+}
 
 std::string to_png(const RgbPicture& picture, const PictureTexts& texts) {
   expect_writable(picture, texts);

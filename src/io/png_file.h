@@ -16,6 +16,9 @@ struct RgbPicture {
   std::vector<std::uint8_t> bytes;
 };
 
+/// sRGB's curve of a linear value, in a byte; beyond 0 and 1 as they.
+[[nodiscard]] std::uint8_t srgb_byte(double linear) noexcept;
+
 /// Keyword (Latin letters, at most 79) and text (UTF-8) of the chunks that say what a picture is.
 using PictureTexts = std::vector<std::pair<std::string, std::string>>;
 

@@ -73,11 +73,6 @@ double bent(double x) {
   return 1.0 - (1.0 - straight) * std::exp(-(x - straight) / (1.0 - straight));
 }
 
-std::uint8_t srgb_byte(double x) {
-  const double encoded = x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1.0 / 2.4) - 0.055;
-  return static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(encoded, 0.0, 1.0)));
-}
-
 }  // namespace
 
 std::vector<std::array<double, 3>> rgb_weights(const std::vector<SceneChannel>& channels) {

@@ -10,6 +10,7 @@
 #include "geometry/angles.h"
 #include "geometry/direction.h"
 #include "geometry/direction_batch.h"
+#include "io/png_file.h"
 
 namespace goniofit {
 namespace {
@@ -83,12 +84,6 @@ Samples sample_sphere(std::size_t size) {
 
 // Of the brightest primary: by luminance a deep red would lose its shading to clipping.
 double brightness(const Color& c) { return std::max({c[0], c[1], c[2]}); }
-
-std::uint8_t srgb(double linear) {
-  const double c = std::clamp(linear, 0.0, 1.0);
-  const double encoded = c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1.0 / 2.4) - 0.055;
-  return static_cast<std::uint8_t>(std::lround(255.0 * encoded));
-}
 
 // What the brightness is set by.
 double exposure_reference(std::vector<double> lit) {
@@ -203,7 +198,7 @@ SpherePicture sphere_picture(const Material& material, std::size_t size) {
     const double y = scale * brightness(image[p]);
     const double toned = (1.0 + y / (burnt * burnt)) / (1.0 + y) * scale;
     for (const double c : image[p]) {
-      out.rgb.push_back(srgb(toned * c + (1.0 - samples.covered[p]) * background));
+      out.rgb.push_back(srgb_byte(toned * c + (1.0 - samples.covered[p]) * background));
     }
   }
   return out;

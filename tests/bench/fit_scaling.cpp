@@ -31,36 +31,19 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-FitSettings settings() {
-  FitSettings s;
-  s.components = EffectSet{Effect::dd, Effect::uds, Effect::fs};
-  s.n = {1.5};
-  return s;
-}
-
-// Of this process, in bytes; 0 where the kernel does not tell.
-double memory(const std::string& key) {
-  std::ifstream in("/proc/self/status");
-  for (std::string word; in >> word;) {
-    double kilobytes = 0.0;
-    if (word == key && in >> kilobytes) return 1024.0 * kilobytes;
-  }
-  return 0.0;
-}
-
 void large(std::size_t readings) {
   const Scan scan = test::half_angle_scan(test::laser_paper_73(), readings, 0.02);
   const auto scan_bytes = static_cast<double>(scan.size()) * 8.0 * (4.0 + static_cast<double>(scan.channels.size()));
   malloc_trim(0);
   std::ofstream("/proc/self/clear_refs") << 5;  // the peak from here on
-  const double before = memory("VmRSS:");
+  const double before = test::process_memory("VmRSS:");
   for (int run = 0; run < 3; ++run) {
     const Clock::time_point start = Clock::now();
-    const FitResult r = fit(scan, settings());
+    const FitResult r = fit(scan, test::paper_settings());
     fmt::print("{} readings x {} channels: {:.3f} s, slope {:.6f}, converged {}\n", scan.size(), scan.channels.size(),
                seconds_since(start), r.parameters.front().value.value_or(0.0), r.converged);
   }
-  const double peak = memory("VmHWM:");
+  const double peak = test::process_memory("VmHWM:");
   fmt::print("scan {:.1f} MB; peak of the process {:.1f} MB, of which the fit's {:.1f} MB: {:.2f} scans\n",
              1e-6 * scan_bytes, 1e-6 * peak, 1e-6 * (peak - before), (peak - before) / scan_bytes);
 }
@@ -70,7 +53,7 @@ std::size_t fits_in(const Scan& scan, double seconds) {
   const Clock::time_point start = Clock::now();
   std::size_t count = 0;
   for (; seconds_since(start) < seconds; ++count) {
-    if (!fit(scan, settings()).converged) std::abort();
+    if (!fit(scan, test::paper_settings()).converged) std::abort();
   }
   return count;
 }

@@ -20,28 +20,14 @@
 namespace goniofit {
 namespace {
 
-FitSettings usual() {
-  FitSettings s;
-  s.components = EffectSet{Effect::dd, Effect::uds, Effect::fs};
-  s.n = {1.5};
-  return s;
-}
-
-Material with_slope(double slope) {
-  Material m = test::laser_paper_73();
-  m.surface = {};
-  m.surface.slope = slope;
-  return m;
-}
-
 class LargeScan : public testing::TestWithParam<double> {};
 
 // The dips of the whole profile are those of the thinned one, the least of them the same, and the fit the whole
 // search's: from mirrors to surfaces as rough as any.
 TEST_P(LargeScan, SearchedInPartHasTheMinimumOfTheWhole) {
-  const Scan scan = test::half_angle_scan(with_slope(GetParam()), 110000, 0.05);
+  const Scan scan = test::half_angle_scan(test::paper_with_slope(GetParam()), 110000, 0.05);
   ASSERT_GT(scan.size(), most_searched);
-  const Problem problem(scan, usual());
+  const Problem problem(scan, test::paper_settings());
   const SearchOutcome some = search(problem);
   const SearchOutcome all = search(problem, 3, true);
   ASSERT_TRUE(some.thinned);
@@ -57,7 +43,7 @@ TEST_P(LargeScan, SearchedInPartHasTheMinimumOfTheWhole) {
 INSTANTIATE_TEST_SUITE_P(Slopes, LargeScan, testing::Values(0.003, 0.02, 0.072, 0.3));
 
 TEST(Thinning, WeightsStandForAllReadings) {
-  const Problem problem(test::half_angle_scan(test::laser_paper_73(), 110000, 0.0), usual());
+  const Problem problem(test::half_angle_scan(test::laser_paper_73(), 110000, 0.0), test::paper_settings());
   const RowSelection some = searched_rows(problem);
   double count = 0.0;
   double signal = 0.0;
@@ -74,8 +60,8 @@ TEST(Thinning, WeightsStandForAllReadings) {
 
 TEST(Thinning, SmallScansAndOtherLossesAreSearchedWhole) {
   const Scan small = simulate(test::laser_paper_73(), Sampling::hemisphere, {0.02, 0.0}, 1);
-  EXPECT_TRUE(searched_rows(Problem(small, usual())).all());
-  FitSettings bent = usual();
+  EXPECT_TRUE(searched_rows(Problem(small, test::paper_settings())).all());
+  FitSettings bent = test::paper_settings();
   bent.loss = Loss::log1p;
   EXPECT_TRUE(searched_rows(Problem(test::half_angle_scan(test::laser_paper_73(), 110000, 0.0), bent)).all());
 }
@@ -84,7 +70,7 @@ TEST(Thinning, SmallScansAndOtherLossesAreSearchedWhole) {
 // model that skips none.
 TEST(Profile, DarkReadingsAreKnownWithoutLooking) {
   const Scan scan = simulate(test::laser_paper_73(), Sampling::hemisphere, {0.02, 0.0}, 5);
-  const Problem problem(scan, usual());
+  const Problem problem(scan, test::paper_settings());
   Profile profile(problem);
   Model model(problem);
   for (double z = problem.shape.lower[0]; z < problem.shape.upper[0]; z += 0.7) {
@@ -100,7 +86,7 @@ TEST(Profile, DarkReadingsAreKnownWithoutLooking) {
 TEST(Basis, NothingIsLitBelowItsOnset) {
   const Scan scan = simulate(test::laser_paper_73(), Sampling::hemisphere, {0.0, 0.0}, 1);
   for (const FsForm form : {FsForm::printed, FsForm::reciprocal}) {
-    FitSettings settings = usual();
+    FitSettings settings = test::paper_settings();
     settings.forms.fs = form;
     const Problem problem(scan, settings);
     for (std::size_t i = 0; i < problem.readings(); ++i) {
@@ -122,7 +108,7 @@ TEST(Basis, NothingIsLitBelowItsOnset) {
 TEST(FittedValues, AreTheMaterials) {
   for (const FreeOptics optics : {FreeOptics::none, FreeOptics::f0}) {
     const Scan scan = simulate(test::laser_paper_73(), Sampling::incidence_plane, {0.05, 1e-4}, 3);
-    FitSettings settings = usual();
+    FitSettings settings = test::paper_settings();
     settings.free_optics = optics;
     if (optics == FreeOptics::f0) settings.parameters["k_dd"].value = 0.3;
     const FitResult r = fit(scan, settings);

@@ -29,20 +29,6 @@ namespace {
 
 constexpr std::size_t readings = 110000;
 
-FitSettings usual() {
-  FitSettings s;
-  s.components = EffectSet{Effect::dd, Effect::uds, Effect::fs};
-  s.n = {1.5};
-  return s;
-}
-
-Material with_slope(double slope) {
-  Material m = test::laser_paper_73();
-  m.surface = {};
-  m.surface.slope = slope;
-  return m;
-}
-
 Scan noisy_scan() { return test::half_angle_scan(test::laser_paper_73(), readings, 0.05); }
 
 struct Case {
@@ -55,7 +41,7 @@ class Parts : public testing::TestWithParam<Case> {};
 
 TEST_P(Parts, SumUpToTheWhole) {
   Scan scan = noisy_scan();
-  FitSettings settings = usual();
+  FitSettings settings = test::paper_settings();
   GetParam().set(scan, settings);
   const Problem whole(scan, settings);
   const Problem parts(scan, settings, Problem::Hold::parts);
@@ -136,9 +122,9 @@ INSTANTIATE_TEST_SUITE_P(
 
 // Readings that are not drawn are another surface's: what the search found then is none of theirs.
 TEST(PartsSearch, LooksAtAllReadingsWhereTheyContradictThoseDrawn) {
-  Scan scan = test::half_angle_scan(with_slope(0.5), readings, 0.0);
-  const Scan drawn_from = test::half_angle_scan(with_slope(0.25), readings, 0.0);
-  const FitSettings settings = usual();
+  Scan scan = test::half_angle_scan(test::paper_with_slope(0.5), readings, 0.0);
+  const Scan drawn_from = test::half_angle_scan(test::paper_with_slope(0.25), readings, 0.0);
+  const FitSettings settings = test::paper_settings();
   const RowSelection drawn = searched_rows(Problem(drawn_from, settings));
   for (const std::size_t row : drawn.rows) {
     for (std::size_t c = 0; c < scan.channels.size(); ++c)
@@ -162,18 +148,18 @@ TEST(PartsSearch, LooksAtAllReadingsWhereTheyContradictThoseDrawn) {
 // readings.
 TEST(PartsDiagnosis, MissesNothingInASmallRegion) {
   Scan scan = test::half_angle_scan(test::laser_paper_73(), readings, 0.02);
-  const FitResult good = fit(scan, usual());
+  const FitResult good = fit(scan, test::paper_settings());
   ASSERT_TRUE(good.diagnostics);
   EXPECT_EQ(good.diagnostics->verdict, FitVerdict::describes);
   EXPECT_EQ(good.diagnostics->outlier_count, 0U);
-  const RowSelection drawn = searched_rows(Problem(scan, usual()));
+  const RowSelection drawn = searched_rows(Problem(scan, test::paper_settings()));
   std::vector<std::size_t> planted;
   for (std::size_t row = 1000; planted.size() < 5; row += 20011) {
     while (std::binary_search(drawn.rows.begin(), drawn.rows.end(), row)) ++row;
     planted.push_back(row);
     scan.channels[1].values[row] *= 1.6;
   }
-  const FitResult outliers = fit(scan, usual());
+  const FitResult outliers = fit(scan, test::paper_settings());
   EXPECT_EQ(outliers.diagnostics->outlier_count, planted.size());
   for (const Outlier& o : outliers.diagnostics->outliers)
     EXPECT_TRUE(std::find(planted.begin(), planted.end(), o.row) != planted.end()) << o.row;
@@ -185,49 +171,39 @@ TEST(PartsDiagnosis, MissesNothingInASmallRegion) {
     for (ScanChannel& c : scan.channels) c.values[row] += 40.0;
   }
   ASSERT_LT(wrong, scan.size() / 40);
-  const FitResult bad = fit(scan, usual());
+  const FitResult bad = fit(scan, test::paper_settings());
   EXPECT_EQ(bad.diagnostics->verdict, FitVerdict::fails);
   EXPECT_GT(bad.diagnostics->regions[static_cast<std::size_t>(Region::retro)].of_misfit, 0.3);
 }
 
 TEST(PartsReport, SaysWhatIsFromReadingsDrawn) {
-  const FitResult r = fit(noisy_scan(), usual());
+  const FitResult r = fit(noisy_scan(), test::paper_settings());
   const auto says = [](const std::string& note) { return note.find("drawn to stand for all") != std::string::npos; };
   EXPECT_EQ(std::count_if(r.notes.begin(), r.notes.end(), says), 1);
-  const FitResult small = fit(test::half_angle_scan(test::laser_paper_73(), 20000, 0.05), usual());
+  const FitResult small = fit(test::half_angle_scan(test::laser_paper_73(), 20000, 0.05), test::paper_settings());
   EXPECT_TRUE(std::none_of(small.notes.begin(), small.notes.end(), says));
 }
 
 // What a fit leaves out since the scan does not show it takes looks at all readings too.
 TEST(PartsReport, LeavesOutTheCoherenceThatIsNotThere) {
-  FitSettings settings = usual();
+  FitSettings settings = test::paper_settings();
   settings.components = EffectSet{Effect::coh, Effect::dd, Effect::uds, Effect::fs};
   const FitResult r = fit(noisy_scan(), settings);
   EXPECT_FALSE(r.material.components.has(Effect::coh));
   ASSERT_TRUE(r.parameters.front().value && r.parameters.front().u);
   EXPECT_NEAR(*r.parameters.front().value, *test::laser_paper_73().surface.slope, 5.0 * *r.parameters.front().u);
-  const double without = fit(noisy_scan(), usual()).loss;
+  const double without = fit(noisy_scan(), test::paper_settings()).loss;
   EXPECT_NEAR(r.loss, without, 1e-9 * without);
-}
-
-// Of this process, in bytes; 0 where the kernel does not tell.
-double memory(const std::string& key) {
-  std::ifstream in("/proc/self/status");
-  for (std::string word; in >> word;) {
-    double kilobytes = 0.0;
-    if (word == key && in >> kilobytes) return 1024.0 * kilobytes;
-  }
-  return 0.0;
 }
 
 // What a fit adds to the peak of a process of its own, in scans.
 double memory_of_a_fit(const Scan& scan) {
   malloc_trim(0);
   if (!(std::ofstream("/proc/self/clear_refs") << 5)) return 0.0;  // the peak from here on
-  const double before = memory("VmRSS:");
-  const FitResult r = fit(scan, usual());
+  const double before = test::process_memory("VmRSS:");
+  const FitResult r = fit(scan, test::paper_settings());
   const double scan_bytes = 8.0 * static_cast<double>(scan.size() * (4 + scan.channels.size()));
-  return r.converged ? (memory("VmHWM:") - before) / scan_bytes : 0.0;
+  return r.converged ? (test::process_memory("VmHWM:") - before) / scan_bytes : 0.0;
 }
 
 TEST(PartsMemory, IsAFewScans) {

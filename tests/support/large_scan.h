@@ -4,11 +4,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <fstream>
 #include <random>
+#include <string>
 
 #include "brdf/evaluator.h"
+#include "fit/settings.h"
 #include "geometry/angles.h"
 #include "scan/scan.h"
+#include "support/materials.h"
 
 namespace goniofit::test {
 
@@ -56,6 +60,31 @@ namespace goniofit::test {
   for (ScanChannel& c : scan.channels) c.values.shrink_to_fit();
   for (auto* angles : {&scan.theta_i_deg, &scan.phi_i_deg, &scan.theta_r_deg, &scan.phi_r_deg}) angles->shrink_to_fit();
   return scan;
+}
+
+/// What such scans of the laser paper are fitted with.
+[[nodiscard]] inline FitSettings paper_settings() {
+  FitSettings s;
+  s.components = EffectSet{Effect::dd, Effect::uds, Effect::fs};
+  s.n = {1.5};
+  return s;
+}
+
+[[nodiscard]] inline Material paper_with_slope(double slope) {
+  Material m = laser_paper_73();
+  m.surface = {};
+  m.surface.slope = slope;
+  return m;
+}
+
+/// Of this process, in bytes, by its key in /proc/self/status ("VmHWM:"); 0 where the kernel does not tell.
+[[nodiscard]] inline double process_memory(const std::string& key) {
+  std::ifstream in("/proc/self/status");
+  for (std::string word; in >> word;) {
+    double kilobytes = 0.0;
+    if (word == key && in >> kilobytes) return 1024.0 * kilobytes;
+  }
+  return 0.0;
 }
 
 }  // namespace goniofit::test

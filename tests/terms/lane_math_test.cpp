@@ -66,6 +66,15 @@ TYPED_TEST(LaneMath, LogarithmsAreRightToThreeEps) {
   EXPECT_LE(worst_eps<Real>(g, true_log1p, -0.999, 0.5), 3.0);
 }
 
+TYPED_TEST(LaneMath, ArcSinesAreRightToTwoEps) {
+  using Real = TypeParam;
+  const auto f = [](Lane<Real> x) { return asin(x); };
+  const auto truth = [](long double x) { return std::asin(x); };
+  EXPECT_LE(worst_eps<Real>(f, truth, 1e-15, 0.70710678, true), 2.0);
+  EXPECT_LE(worst_eps<Real>(f, truth, 0.1, 0.70710678), 2.0);
+  EXPECT_TRUE(std::isfinite(asin(Lane<Real>(Real(1))).v)) << "a lane that another choice is made for";
+}
+
 // ln(1 - e^x) from where e^x is lost beside 1 to where 1 - e^x nearly vanishes.
 TYPED_TEST(LaneMath, LogOfOneMinusExp) {
   using Real = TypeParam;
